@@ -1,0 +1,13 @@
+"""Answers in, verdicts out.
+
+`judge` compares what a student handed in with a question's reference and response tree. It works on data
+only: nothing of a student's is executed here.
+"""
+
+from dhkit.wire import MIME
+
+from .decode import Malformed
+from .question import Mistake, Question, Variant, mistake
+from .verdict import Evidence, Verdict, judge, plain
+
+__all__ = ["MIME", "Evidence", "Malformed", "Mistake", "Question", "Variant", "Verdict", "judge", "mistake", "plain"]

@@ -1,0 +1,227 @@
+"""Reads an answer bundle that came out of a student's kernel. Nothing in it is trusted.
+
+The result is made of our own frozen nodes only. No text is evaluated, no SymPy object is built, and the
+work is bounded before it is done: number of nodes, depth, digits, length of text.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+from dhkit.wire import FORMAT, FUNCTIONS
+
+MAX_NODES = 20_000
+MAX_DEPTH = 60
+MAX_DIGITS = 300
+MAX_TEXT = 1000
+
+_ARITIES = {"add": None, "mul": None, "pow": 2, "atan2": 2, "Mod": 2, "Max": None, "Min": None}
+_OPERATIONS = {**{name: _ARITIES.get(name, 1) for name in FUNCTIONS}, "add": None, "mul": None, "pow": 2}
+
+
+class Malformed(ValueError):
+    """The bundle breaks the wire format; the message is a sentence for the student."""
+
+
+@dataclass(frozen=True)
+class Number:
+    """A real or complex constant; exact where the wire was exact."""
+
+    value: int | float | complex | Fraction
+
+
+@dataclass(frozen=True)
+class Constant:
+    """``pi``, ``E`` or ``I``."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class Symbol:
+    name: str
+
+
+@dataclass(frozen=True)
+class Call:
+    """An operation (`add`, `mul`, `pow`) or a function of the whitelist, applied to expressions."""
+
+    function: str
+    args: tuple[Expression, ...]
+
+
+@dataclass(frozen=True)
+class Text:
+    value: str
+
+
+@dataclass(frozen=True)
+class Record:
+    """A dictionary with text keys."""
+
+    items: tuple[tuple[str, object], ...]
+
+
+@dataclass(frozen=True)
+class Function:
+    """The student handed in a function of this name; it is judged by probing."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class Foreign:
+    """An object with no place on the wire; only the name of its type is known."""
+
+    type: str
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A probe of a student's function raised this error."""
+
+    message: str
+
+
+@dataclass(frozen=True)
+class Blank:
+    """Not attempted."""
+
+
+Expression = Number | Constant | Symbol | Call
+Value = Expression | Text | Record | Function | Foreign | Failure | Blank | tuple
+
+
+def decode_answer(bundle: object, question: str) -> Value:
+    """The answer inside a bundle of `dhkit.check`; `Malformed` if it is not one for `question`."""
+    return _Reader().value(_content(bundle, question, "answer"))
+
+
+def decode_probes(bundle: object, question: str, count: int) -> tuple[Value, ...]:
+    """The `count` results inside a bundle of `dhkit.check.answer_probes`."""
+    content = _content(bundle, question, "probes")
+    if not isinstance(content, list) or len(content) != count:
+        raise Malformed("the function's answers do not match the arguments that were sent")
+    reader = _Reader()
+    return tuple(reader.value(item) for item in content)
+
+
+def _content(bundle: object, question: str, key: str) -> object:
+    if not isinstance(bundle, dict) or bundle.keys() != {"format", "question", key}:
+        raise Malformed("the answer was not handed in by check()")
+    if type(bundle["format"]) is not int or bundle["format"] != FORMAT:
+        raise Malformed("the answer was written by another version of dhkit")
+    if bundle["question"] != question:
+        raise Malformed("the answer belongs to another question")
+    return bundle[key]
+
+
+class _Reader:
+    """Counts nodes over one bundle, so that breadth and depth together stay bounded."""
+
+    def __init__(self) -> None:
+        self.left = MAX_NODES
+
+    def value(self, node: object, depth: int = 0) -> Value:
+        self.left -= 1
+        if self.left < 0 or depth > MAX_DEPTH:
+            raise Malformed("the answer is far larger than any answer to this question")
+        if isinstance(node, bool):
+            return Number(int(node))
+        if isinstance(node, (int, float)):
+            return Number(_bounded(node))
+        if isinstance(node, str):
+            return Text(_text(node))
+        if isinstance(node, list):
+            return tuple(self.value(item, depth + 1) for item in node)
+        if not isinstance(node, dict) or len(node) != 1:
+            raise Malformed("the answer is not in the wire format")
+        ((kind, content),) = node.items()
+        read = getattr(self, f"_{kind}", None) if kind in _TAGGED else None
+        if read is None:
+            raise Malformed("the answer is not in the wire format")
+        return read(content, depth)
+
+    def _blank(self, content: object, depth: int) -> Blank:
+        return Blank()
+
+    def _int(self, content: object, depth: int) -> Number:
+        digits = _text(content)
+        if len(digits) > MAX_DIGITS or not digits.removeprefix("-").isascii() or not digits.removeprefix("-").isdigit():
+            raise Malformed("an integer of the answer is out of bounds")
+        return Number(int(digits))
+
+    def _float(self, content: object, depth: int) -> Number:
+        if content not in ("nan", "inf", "-inf"):
+            raise Malformed("the answer is not in the wire format")
+        return Number(float(content))
+
+    def _complex(self, content: object, depth: int) -> Number:
+        real, imaginary = (part.value for part in self._numbers(content, depth))
+        return Number(complex(real, imaginary))
+
+    def _rat(self, content: object, depth: int) -> Number:
+        numerator, denominator = (part.value for part in self._numbers(content, depth))
+        if not isinstance(numerator, int) or not isinstance(denominator, int) or denominator == 0:
+            raise Malformed("the answer is not in the wire format")
+        return Number(Fraction(numerator, denominator))
+
+    def _numbers(self, content: object, depth: int) -> tuple[Number, Number]:
+        if not isinstance(content, list) or len(content) != 2:
+            raise Malformed("the answer is not in the wire format")
+        pair = tuple(self.value(item, depth + 1) for item in content)
+        if not all(isinstance(part, Number) and not isinstance(part.value, complex) for part in pair):
+            raise Malformed("the answer is not in the wire format")
+        return pair
+
+    def _const(self, content: object, depth: int) -> Constant:
+        if content not in ("pi", "E", "I"):
+            raise Malformed("the answer is not in the wire format")
+        return Constant(content)
+
+    def _sym(self, content: object, depth: int) -> Symbol:
+        return Symbol(_text(content))
+
+    def _call(self, content: object, depth: int) -> Call:
+        if not isinstance(content, list) or len(content) < 2 or content[0] not in _OPERATIONS:
+            raise Malformed("the answer uses a function that is not known here")
+        arity = _OPERATIONS[content[0]]
+        if arity is not None and len(content) != arity + 1:
+            raise Malformed(f"{content[0]} has the wrong number of arguments")
+        args = tuple(self.value(item, depth + 1) for item in content[1:])
+        if not all(isinstance(arg, Expression) for arg in args):
+            raise Malformed("the answer is not in the wire format")
+        return Call(content[0], args)
+
+    def _dict(self, content: object, depth: int) -> Record:
+        if not isinstance(content, list) or not all(isinstance(item, list) and len(item) == 2 for item in content):
+            raise Malformed("the answer is not in the wire format")
+        return Record(tuple((_text(key), self.value(item, depth + 1)) for key, item in content))
+
+    def _function(self, content: object, depth: int) -> Function:
+        return Function(_text(content))
+
+    def _unknown(self, content: object, depth: int) -> Foreign:
+        return Foreign(_text(content))
+
+    def _error(self, content: object, depth: int) -> Failure:
+        return Failure(_text(content))
+
+
+_TAGGED = ("blank", "int", "float", "complex", "rat", "const", "sym", "call", "dict", "function", "unknown", "error")
+
+
+def _text(content: object) -> str:
+    if not isinstance(content, str) or len(content) > MAX_TEXT:
+        raise Malformed("the answer is not in the wire format")
+    return content
+
+
+def _bounded(number: int | float) -> int | float:
+    if isinstance(number, int) and number.bit_length() > MAX_DIGITS * 4:
+        raise Malformed("an integer of the answer is out of bounds")
+    if isinstance(number, float) and not math.isfinite(number):
+        raise Malformed("the answer is not in the wire format")
+    return number

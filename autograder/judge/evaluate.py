@@ -1,0 +1,112 @@
+"""Values of decoded expressions at sample points: NumPy first, mpmath where float64 cannot decide."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Mapping
+from fractions import Fraction
+from functools import reduce
+
+import mpmath
+import numpy as np
+
+from .decode import Call, Constant, Expression, Number, Symbol
+
+_NUMPY = {
+    "sin": np.sin, "cos": np.cos, "tan": np.tan,
+    "cot": lambda x: 1 / np.tan(x), "sec": lambda x: 1 / np.cos(x), "csc": lambda x: 1 / np.sin(x),
+    "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "acot": lambda x: np.arctan(1 / x),
+    "atan2": lambda y, x: np.arctan2(_real(y), _real(x)) + 0j,
+    "exp": np.exp, "log": np.log, "Abs": lambda x: np.abs(x) + 0j, "sign": lambda x: np.sign(_real(x)) + 0j,
+    "Max": lambda *xs: reduce(np.maximum, map(_real, xs)) + 0j, "Min": lambda *xs: reduce(np.minimum, map(_real, xs)) + 0j,
+    "Mod": lambda x, y: np.mod(_real(x), _real(y)) + 0j,
+    "add": lambda *xs: reduce(operator.add, xs), "mul": lambda *xs: reduce(operator.mul, xs), "pow": np.power,
+}  # fmt: skip
+
+_MPMATH = {
+    "sin": mpmath.sin, "cos": mpmath.cos, "tan": mpmath.tan,
+    "cot": mpmath.cot, "sec": mpmath.sec, "csc": mpmath.csc,
+    "asin": mpmath.asin, "acos": mpmath.acos, "atan": mpmath.atan, "acot": mpmath.acot,
+    "atan2": lambda y, x: mpmath.atan2(mpmath.re(y), mpmath.re(x)),
+    "exp": mpmath.exp, "log": mpmath.log, "Abs": abs, "sign": mpmath.sign,
+    "Max": lambda *xs: max(map(mpmath.re, xs)), "Min": lambda *xs: min(map(mpmath.re, xs)),
+    "Mod": lambda x, y: mpmath.re(x) - mpmath.re(y) * mpmath.floor(mpmath.re(x) / mpmath.re(y)),
+    "add": lambda *xs: reduce(operator.add, xs), "mul": lambda *xs: reduce(operator.mul, xs), "pow": operator.pow,
+}  # fmt: skip
+
+_DIGITS = 40
+# Beyond these sizes a value says nothing about a robot, and computing it with many digits would cost without bound.
+_MAX_EXPONENT = 1000
+_MAX_ARGUMENT = 1e6
+
+
+def _real(x):
+    """The real part where it is the whole value, nan elsewhere."""
+    return np.where(np.imag(x) == 0, np.real(x), np.nan)
+
+
+def evaluate(expression: Expression, points: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Complex values of `expression` at N points given as one (N,) array per symbol; nan or inf where undefined."""
+    size = len(next(iter(points.values()), np.zeros(1)))
+    with np.errstate(all="ignore"):
+        return np.broadcast_to(_evaluate(expression, points), (size,)).astype(complex)
+
+
+def _evaluate(expression: Expression, points: Mapping[str, np.ndarray]):
+    match expression:
+        case Number(value):
+            return _as_complex(value)
+        case Constant(name):
+            return {"pi": np.pi + 0j, "E": np.e + 0j, "I": 1j}[name]
+        case Symbol(name):
+            return points[name] + 0j
+        case Call(function, args):
+            return _NUMPY[function](*(_evaluate(arg, points) for arg in args))
+
+
+def _as_complex(value) -> complex:
+    try:
+        return complex(value)
+    except OverflowError:
+        return complex(float("inf"))
+
+
+def evaluate_exactly(expression: Expression, point: Mapping[str, float]) -> mpmath.mpc | None:
+    """Value at one point with 40 digits; None where it is undefined."""
+    with mpmath.workdps(_DIGITS):
+        try:
+            return mpmath.mpmathify(_evaluate_exactly(expression, point))
+        except (ZeroDivisionError, ValueError, OverflowError, TypeError):
+            return None
+
+
+def _evaluate_exactly(expression: Expression, point: Mapping[str, float]):
+    match expression:
+        case Number(Fraction() as value):
+            return mpmath.mpf(value.numerator) / value.denominator
+        case Number(value):
+            return mpmath.mpmathify(value)
+        case Constant(name):
+            return {"pi": mpmath.pi(), "E": mpmath.e(), "I": mpmath.j}[name]
+        case Symbol(name):
+            return mpmath.mpf(float(point[name]))
+        case Call("pow", (base, exponent)):
+            power = _evaluate_exactly(exponent, point)
+            if abs(power) > _MAX_EXPONENT:
+                raise OverflowError
+            return _evaluate_exactly(base, point) ** power
+        case Call(function, args):
+            values = [_evaluate_exactly(arg, point) for arg in args]
+            if function not in ("add", "mul") and any(abs(value) > _MAX_ARGUMENT for value in values):
+                raise OverflowError
+            return _MPMATH[function](*values)
+
+
+def symbols(expression: Expression) -> frozenset[str]:
+    """Names of the symbols in `expression`."""
+    match expression:
+        case Symbol(name):
+            return frozenset({name})
+        case Call(_, args):
+            return frozenset().union(*map(symbols, args))
+    return frozenset()

@@ -1,0 +1,110 @@
+"""The private half of a question: its reference and its response tree."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from dhkit import public
+
+Draw = Callable[[np.random.Generator], dict[str, float]]
+
+
+@dataclass(frozen=True)
+class Variant:
+    """Whose question it is. The id comes from the gradebook, never from the notebook."""
+
+    student: str
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """A node of the response tree: the reference with one thing done wrong.
+
+    Attributes
+    ----------
+    note : str
+        Stable key for class statistics, for example ``"sign_of_d2"``.
+    share : float
+        Share of the points, 0 to 1.
+    feedback : str
+        Markdown that names the mistake and points at the slide, without giving the answer.
+    answers : tuple of callable
+        Each maps a `Variant` to one form of the mistaken answer.
+    """
+
+    note: str
+    share: float
+    feedback: str
+    answers: tuple[Callable[[Variant], object], ...]
+
+
+def mistake(note: str, share: float, feedback: str, *answers: Callable[[Variant], object]) -> Mistake:
+    """A `Mistake`; give the mistaken answers as functions of the variant."""
+    return Mistake(note, share, feedback, answers)
+
+
+@dataclass(frozen=True)
+class Question:
+    """One question as the judge knows it. The form of the answer is in its public half.
+
+    Attributes
+    ----------
+    id : str
+        ``"<exercise>.<name>"``, as in the public half.
+    reference : callable
+        Maps a `Variant` to the right answer: anything `dhkit.wire.encode` takes, or a function.
+    mistakes : tuple of Mistake
+        Tried in order when the answer is not right; the first that matches decides.
+    partial : float
+        Largest share that right parts of an otherwise unrecognised answer can earn.
+    angles : tuple of int
+        Entries compared modulo 2 pi (vector entries or joints; ``(0,)`` for a single expression).
+    tolerance : float
+        Largest accepted difference, relative to the larger of 1 and the reference's size.
+    draw : callable, optional
+        Draws one sample point for the symbols; the default draws angles and positive lengths independently.
+    probe : callable, optional
+        Draws the argument lists sent to a student's function.
+    group : callable, optional
+        Names the case an argument list belongs to; each case earns the same share.
+    """
+
+    id: str
+    reference: Callable[[Variant], object]
+    mistakes: tuple[Mistake, ...] = ()
+    partial: float = 0.5
+    angles: tuple[int, ...] = ()
+    tolerance: float = 1e-6
+    draw: Draw | None = None
+    probe: Callable[[np.random.Generator], list[list[float]]] | None = None
+    group: Callable[..., str] = lambda *args: "the values tried"
+
+    @cached_property
+    def public(self) -> public.PublicQuestion:
+        return public.find(self.id)
+
+    def points(self, count: int = 12) -> dict[str, np.ndarray]:
+        """Sample values of the symbols: one (count,) array per symbol, the same at every call."""
+        rng = np.random.default_rng(_seed(self.id))
+        draw = self.draw or (lambda rng: {name: _independent(name, rng) for name in self.public.symbols})
+        draws = [draw(rng) for _ in range(count)]
+        return {name: np.array([point[name] for point in draws]) for name in self.public.symbols}
+
+    def probes(self, variant: Variant, seed: int) -> list[list[float]] | None:
+        """Argument lists for a function question (JSON-able), None for any other kind."""
+        if self.probe is None:
+            return None
+        return self.probe(np.random.default_rng([seed, _seed(f"{self.id} {variant.student}")]))
+
+
+def _independent(name: str, rng: np.random.Generator) -> float:
+    is_angle = name.startswith(("t", "alpha", "phi", "psi"))
+    return rng.uniform(-np.pi, np.pi) if is_angle else rng.uniform(0.2, 1.5)
+
+
+def _seed(text: str) -> int:
+    return int.from_bytes(hashlib.sha256(text.encode()).digest()[:8])

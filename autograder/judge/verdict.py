@@ -1,0 +1,169 @@
+"""From evidence to verdict: what came out of the sandbox is decoded, compared and named."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from dhkit import wire
+
+from .decode import Blank, Failure, Malformed, Value, decode_answer, decode_probes
+from .kinds import KINDS, Comparison, Kind, Setting
+from .question import Question, Variant
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What the sandbox found for one question. None of it is trusted.
+
+    Attributes
+    ----------
+    bundle : object
+        The JSON value displayed under `dhkit.wire.MIME` by the check cell, None if there was none.
+    probes : tuple or None
+        For a function: the argument lists that were sent, and the JSON value that came back (or None).
+    trouble : str or None
+        Why the cell did not end well, in one sentence.
+    status : str
+        ``"ok"``, or how the cell ended: ``"error"``, ``"timeout"``, ``"memory"``, ``"unreadable"`` ...
+    """
+
+    bundle: object | None
+    probes: tuple[list, object | None] | None = None
+    trouble: str | None = None
+    status: str = "ok"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Share of the points (0 to 1), answer note (a stable key) and feedback (Markdown)."""
+
+    share: float
+    note: str
+    feedback: str
+
+
+def judge(question: Question, evidence: Evidence, variant: Variant) -> Verdict:
+    """The verdict on one question. Never raises on anything a student can send."""
+    if evidence.bundle is None:
+        return _nothing_came(evidence)
+    try:
+        value = decode_answer(evidence.bundle, question.id)
+        if question.public.kind == "function":
+            return _judge_function(question, evidence, value, variant)
+        if _is_blank(value):
+            return _not_attempted(evidence)
+        return _judge_value(question, value, variant)
+    except Malformed as fault:
+        return Verdict(0.0, "malformed", f"**Not in the form asked for.** {plain(str(fault))}.")
+
+
+def plain(text: str) -> str:
+    """`text` made harmless for Markdown, HTML and terminals, and short."""
+    text = re.sub(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069]+", " ", text)[:300]
+    return re.sub(r"([\\`*_{}\[\]<>()#+!|$~&])", r"\\\1", text).replace("\\<", "&lt;").replace("\\>", "&gt;").replace("\\&", "&amp;")
+
+
+_TROUBLE = {
+    "error": "**Your code stopped with an error.**",
+    "timeout": "**Your code ran too long and was stopped.**",
+    "output_limit": "**Your code printed without end and was stopped.**",
+    "memory": "**Your code asked for more memory than it may have.**",
+    "died": "**The Python process ended while this was running.**",
+    "unreadable": "**The notebook file could not be read.**",
+    "not_run": "**This cell was not run.**",
+}
+
+
+def _nothing_came(evidence: Evidence) -> Verdict:
+    if evidence.status == "ok":
+        return Verdict(0.0, "no_answer", "**No answer was handed in.** The check cell ran, but `check` displayed nothing.")
+    said = f" {plain(evidence.trouble)}" if evidence.trouble else ""
+    return Verdict(0.0, evidence.status, _TROUBLE.get(evidence.status, "**No answer was handed in.**") + said)
+
+
+def _not_attempted(evidence: Evidence) -> Verdict:
+    if evidence.status != "ok":
+        return _nothing_came(evidence)
+    return Verdict(0.0, "not_attempted", "Not attempted.")
+
+
+def _is_blank(value: Value) -> bool:
+    if isinstance(value, tuple):
+        return bool(value) and all(map(_is_blank, value))
+    return isinstance(value, Blank)
+
+
+def _judge_value(question: Question, value: Value, variant: Variant) -> Verdict:
+    kind, form = KINDS[question.public.kind], question.public
+    student = kind.read(form, value)
+    setting = _setting(question)
+
+    def compare(answer: object) -> Comparison:
+        return kind.compare(form, student, _own(kind, form, answer), setting)
+
+    return _walk(question, variant, compare)
+
+
+def _judge_function(question: Question, evidence: Evidence, value: Value, variant: Variant) -> Verdict:
+    if _is_blank(value):
+        return _not_attempted(evidence)
+    if evidence.probes is None or evidence.probes[1] is None:
+        return _nothing_came(evidence)
+    arguments, raw = evidence.probes
+    results = decode_probes(raw, question.id, len(arguments))
+    if all(map(_is_blank, results)):
+        return _not_attempted(evidence)
+    if all(isinstance(result, Failure) for result in results):
+        return Verdict(0.0, "error", f"{_TROUBLE['error']} {plain(results[0].message)}")
+    form = question.public.returns
+    kind, setting = KINDS[form.kind], _setting(question)
+    students = [_read_or_complaint(kind, form, result) for result in results]
+    if all(isinstance(student, Malformed) for student in students):
+        raise students[0]
+
+    def compare(function: object) -> Comparison:
+        cases: dict[str, list[bool]] = {}
+        for args, student in zip(arguments, students, strict=True):
+            other = _read_or_complaint(kind, form, _decoded(form, function(*args)))
+            unusable = [isinstance(answer, Malformed) for answer in (student, other)]
+            right = all(unusable) or (not any(unusable) and kind.compare(form, student, other, setting).equal)
+            cases.setdefault(question.group(*args), []).append(right)
+        wrong = tuple(f"wrong for {case}" for case, right in cases.items() if not all(right))
+        return Comparison(not wrong, 1 - len(wrong) / len(cases), wrong)
+
+    return _walk(question, variant, compare)
+
+
+def _walk(question: Question, variant: Variant, compare) -> Verdict:
+    """The response tree: right, then each mistake in order, then the parts that are right."""
+    against_reference = compare(question.reference(variant))
+    if against_reference.equal:
+        return Verdict(1.0, "right", "**Right.**")
+    for node in question.mistakes:
+        if any(compare(answer(variant)).equal for answer in node.answers):
+            return Verdict(node.share, node.note, node.feedback)
+    share = min(question.partial, against_reference.share)
+    what = "; ".join(against_reference.remarks) or "the answer differs from the right one"
+    note = "partly_right" if share > 0 else "nothing_matched"
+    return Verdict(share, note, f"**{'Partly right' if share > 0 else 'Not right'}.** {what[0].upper()}{what[1:]}.")
+
+
+def _setting(question: Question) -> Setting:
+    return Setting(question.points(), question.angles, question.tolerance)
+
+
+def _own(kind: Kind, form, answer: object) -> object:
+    """Our own answer, taken through the same wire and reader as a student's."""
+    return kind.read(form, _decoded(form, answer))
+
+
+def _decoded(form, answer: object) -> Value:
+    return decode_answer(wire.bundle(form.id, answer=wire.encode(answer)), form.id)
+
+
+def _read_or_complaint(kind: Kind, form, result: Value) -> object:
+    try:
+        return kind.read(form, result)
+    except Malformed as fault:
+        return fault

@@ -1,0 +1,92 @@
+"""``check`` hands an answer in; ``hint`` helps on the way.
+
+``check`` never knows the right answer. It says whether the answer has the form that was asked for,
+runs the question's public checks, and leaves the encoded answer in the notebook for the grader.
+"""
+
+from __future__ import annotations
+
+import json
+
+from . import public, wire
+from .forms import blanks, complaint, is_blank
+from .public_checks import run_public_check
+from .report import Line, Report, show
+
+_functions: dict[str, object] = {}
+
+
+def check(id: str, answer=...) -> None:
+    """Hand in `answer` to question `id` and show what can be said about it here.
+
+    Parameters
+    ----------
+    id : str
+        The question, for example ``"scara.T04"``.
+    answer : object
+        The answer: numbers, nested lists, NumPy arrays, SymPy expressions and matrices, or a function.
+        ``...`` or ``None`` means "not attempted yet".
+
+    Raises
+    ------
+    KeyError
+        If there is no such question; the message names the nearest ones.
+    """
+    question = public.find(id)
+    node = wire.encode(answer)
+    if question.kind == "function" and callable(answer):
+        _functions[id] = answer
+    show(_report(question, node, answer), {wire.MIME: wire.bundle(id, answer=node)})
+
+
+def hint(id: str, level: int = 1) -> None:
+    """Show hint number `level` of question `id`: 1 is the lightest."""
+    question = public.find(id)
+    if not question.hints:
+        lines = [Line(None, "there is no hint for this question")]
+    elif not 1 <= level <= len(question.hints):
+        lines = [Line(None, f"hints are numbered 1 to {len(question.hints)}")]
+    else:
+        lines = [Line(None, question.hints[level - 1])]
+        if level < len(question.hints):
+            lines.append(Line(None, f'more: hint("{id}", {level + 1})'))
+    show(Report(f"Hint: {question.title}", "", tuple(lines)))
+
+
+def answer_probes(id: str, arguments: str) -> None:
+    """Call the function handed in for `id` with each argument list and display what it returns.
+
+    The grader runs this after the check cell, with fresh arguments.
+
+    Parameters
+    ----------
+    id : str
+        The question.
+    arguments : str
+        JSON list of argument lists.
+    """
+    function = _functions[id]
+    answers = []
+    for args in json.loads(arguments):
+        try:
+            answers.append(wire.encode(function(*args)))
+        except Exception as error:
+            answers.append({"error": f"{type(error).__name__}: {error}"[:300]})
+    show(Report("", "", ()), {wire.MIME: wire.bundle(id, probes=answers)})
+
+
+def _report(question: public.PublicQuestion, node: object, answer) -> Report:
+    if is_blank(node):
+        return Report(question.title, "not attempted yet", ())
+    wrong_form = complaint(question, node)
+    if wrong_form:
+        return Report(question.title, "not in the form asked for", (Line(False, wrong_form),))
+    if blanks(node):
+        return Report(question.title, "partly attempted", (Line(False, f"{blanks(node)} entries are still ..."),))
+    lines = [Line(True, f"the form is right: {question.expected}")]
+    lines += [run_public_check(question, spec, answer) for spec in question.public]
+    if question.kind == "function" and any(line.blank for line in lines):
+        return Report(question.title, "not attempted yet", ())
+    missed = sum(line.holds is False for line in lines)
+    status = "handed in" if not missed else f"handed in, but {missed} of {len(lines)} checks fail"
+    return Report(question.title, status, tuple(lines))

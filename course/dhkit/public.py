@@ -1,0 +1,110 @@
+"""The public half of every question: what is asked, in which form, with which hints.
+
+The data lie in ``dhkit/questions/<exercise>.toml``, one table per question, and hold no answer.
+"""
+
+from __future__ import annotations
+
+import difflib
+import tomllib
+from dataclasses import dataclass, field
+from functools import lru_cache
+from importlib import resources
+
+KINDS = (
+    "number",
+    "expression",
+    "vector",
+    "matrix",
+    "transform",
+    "dh_table",
+    "joint_solutions",
+    "function",
+    "choice",
+)
+
+DH_COLUMNS = ("sigma", "a", "alpha", "d", "theta")
+
+
+@dataclass(frozen=True)
+class PublicQuestion:
+    """What a student may know of a question.
+
+    Attributes
+    ----------
+    id : str
+        ``"<exercise>.<name>"``, for example ``"scara.T04"``.
+    kind : str
+        One of `KINDS`.
+    expected : str
+        The awaited form in words, used in messages.
+    shape : tuple of int
+        Shape of an array answer; empty where the kind has none.
+    symbols : tuple of str
+        Names of the symbols the answer may contain; empty for a numeric answer.
+    joints : tuple of str
+        Names and order of the joint variables (kinds ``dh_table`` and ``joint_solutions``).
+    options : tuple of str
+        Letters of a choice.
+    returns : PublicQuestion or None
+        Form of what a function returns (kind ``function``).
+    public : tuple of dict
+        Checks run in the student's own session.
+    hints : tuple of str
+        Hints, from the lightest to the strongest.
+    """
+
+    id: str
+    title: str
+    kind: str
+    expected: str
+    units: str = ""
+    shape: tuple[int, ...] = ()
+    symbols: tuple[str, ...] = ()
+    joints: tuple[str, ...] = ()
+    options: tuple[str, ...] = ()
+    returns: PublicQuestion | None = None
+    public: tuple[dict, ...] = field(default=(), repr=False)
+    hints: tuple[str, ...] = field(default=(), repr=False)
+
+    @property
+    def exercise(self) -> str:
+        return self.id.partition(".")[0]
+
+
+def _question(id: str, table: dict) -> PublicQuestion:
+    """One question from its TOML table; `ValueError` names what is wrong with the table."""
+    table = dict(table)
+    returns = table.pop("returns", None)
+    known = PublicQuestion.__dataclass_fields__.keys() - {"id", "returns"}
+    unknown = table.keys() - known
+    if unknown:
+        raise ValueError(f"question {id}: unknown field {sorted(unknown)}; known: {sorted(known)}")
+    if table.get("kind") not in KINDS:
+        raise ValueError(f"question {id}: kind {table.get('kind')!r} is none of {', '.join(KINDS)}")
+    lists = {key: tuple(value) for key, value in table.items() if isinstance(value, list)}
+    if returns is not None:
+        returns = _question(f"{id}()", {"title": table["title"], "expected": table["expected"], **returns})
+    return PublicQuestion(id=id, returns=returns, **{**table, **lists})
+
+
+@lru_cache(maxsize=None)
+def questions() -> dict[str, PublicQuestion]:
+    """All questions by id, in the order of their files."""
+    found = {}
+    folder = resources.files("dhkit.questions")
+    for file in sorted(folder.iterdir(), key=lambda file: file.name):
+        if file.name.endswith(".toml"):
+            exercise = file.name.removesuffix(".toml")
+            for name, table in tomllib.loads(file.read_text(encoding="utf-8")).items():
+                found[f"{exercise}.{name}"] = _question(f"{exercise}.{name}", table)
+    return found
+
+
+def find(id: str) -> PublicQuestion:
+    """The question called `id`; a `KeyError` names the nearest ones."""
+    try:
+        return questions()[id]
+    except KeyError:
+        near = difflib.get_close_matches(id, questions(), n=3) or list(questions())[:3]
+        raise KeyError(f"there is no question {id!r}; did you mean {' or '.join(near)}?") from None
