@@ -185,7 +185,9 @@ class _Reader:
         return Symbol(_text(content))
 
     def _call(self, content: object, depth: int) -> Call:
-        if not isinstance(content, list) or len(content) < 2 or content[0] not in _OPERATIONS:
+        if not isinstance(content, list) or len(content) < 2 or not isinstance(content[0], str):
+            raise Malformed("the answer is not in the wire format")
+        if content[0] not in _OPERATIONS:
             raise Malformed("the answer uses a function that is not known here")
         arity = _OPERATIONS[content[0]]
         if arity is not None and len(content) != arity + 1:
