@@ -1,0 +1,229 @@
+"""The general equations of Paul and Khalil that closed-form inverse models end in.
+
+S and C are the sine and cosine of an unknown angle, r an unknown length:
+
+====  =================================================  =======================
+type  equations                                          solutions, regular case
+====  =================================================  =======================
+1     X r = Y                                            1
+2     X S + Y C = Z                                      2 or 0
+3     X1 S + Y1 C = Z1,  X2 S + Y2 C = Z2                1 or 0 (2 if dependent)
+6     W Sj = X Ci + Y Si + Z1,  W Cj = X Si - Y Ci + Z2  2 or 0
+7     W1 Cj + W2 Sj = X Ci + Y Si + Z1,                  2 or 0
+      W1 Sj - W2 Cj = X Si - Y Ci + Z2
+8     X Ci + Y Cij = Z1,  X Si + Y Sij = Z2              2 or 0
+====  =================================================  =======================
+
+(types 4 and 5 couple an angle with a length; no robot of the documents has
+them). Type 8 is the planar arm with two revolute joints.
+
+Every coefficient may be an array; they are broadcast to a batch shape written
+``...``. Angles are in radians, in (-pi, pi]. ``tolerance`` is in the unit of
+the coefficients (relative to the largest of them where that exceeds 1): a
+coefficient below it counts as zero, and two solutions merge when the equation
+misses its limit by less. Coefficients that are not finite raise ValueError.
+
+Source: Paul's method as tabulated by Khalil and Kleinfinger, whose numbering
+the Adept s600 tutorial uses; its appendix derives type 8.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from autograder.reference.orientation import wrap
+
+SOLVED = "solved"
+DOUBLE = "boundary: the two solutions merge"
+NONE = "no real solution"
+INFINITE = "infinitely many solutions"
+
+
+@dataclass(frozen=True)
+class Roots:
+    """Real solutions of a batch of equations.
+
+    Attributes
+    ----------
+    values : array, shape (..., m) or (..., m, 2)
+        m places for solutions, of one unknown or of the pair (theta_i,
+        theta_j). Zero where `exists` is False. When there are infinitely many
+        the first place holds a representative.
+    exists : bool array, shape (..., m)
+    status : array of str, shape (...)
+        `SOLVED`, `DOUBLE`, `NONE` or `INFINITE`.
+    free : array of str, shape (...)
+        what is free, in words, where the status is `INFINITE`; "" elsewhere.
+    """
+
+    values: np.ndarray
+    exists: np.ndarray
+    status: np.ndarray
+    free: np.ndarray
+
+    @property
+    def count(self):
+        """Number of solutions, shape (...), int; -1 stands for infinitely many."""
+        return np.where(self.status == INFINITE, -1, self.exists.sum(axis=-1))
+
+    def listed(self):
+        """The solutions of a single equation, shape (count,) or (count, 2)."""
+        if self.exists.ndim != 1:
+            raise ValueError("list one equation at a time: this is a batch of shape "
+                             f"{self.exists.shape[:-1]}")
+        return self.values[self.exists]
+
+
+def type1(X, Y, tolerance=1e-12):
+    """X r = Y for the length r: `Roots` with values (..., 1)."""
+    (X, Y), tolerance = _coefficients(tolerance, X, Y)
+    regular = np.abs(X) > tolerance
+    infinite = ~regular & (np.abs(Y) <= tolerance)
+    return _roots(_quotient(Y, X, regular)[..., None], regular[..., None], infinite, "r")
+
+
+def type2(X, Y, Z, tolerance=1e-12):
+    """X S + Y C = Z for the angle: `Roots` with values (..., 2).
+
+    With rho = hypot(X, Y) this is ``rho cos(theta - atan2(X, Y)) = Z``: the
+    first solution lies ahead of that direction, the second behind it. They
+    merge at ``|Z| = rho``; theta is free if all coefficients vanish.
+    """
+    (X, Y, Z), tolerance = _coefficients(tolerance, X, Y, Z)
+    rho = np.hypot(X, Y)
+    regular = rho > tolerance
+    margin = rho - np.abs(Z)
+    double = regular & (np.abs(margin) <= tolerance)
+    sine = np.sqrt(np.where(double, 0.0, np.maximum(margin, 0.0)) * (rho + np.abs(Z)))
+    ahead = np.arctan2(sine, Z)
+    values = wrap(np.arctan2(X, Y)[..., None] + np.stack([ahead, -ahead], axis=-1))
+    exists = _twice(regular & (margin >= -tolerance))
+    return _roots(values, exists, ~regular & (np.abs(Z) <= tolerance), "theta", double)
+
+
+def type3(X1, Y1, Z1, X2, Y2, Z2, tolerance=1e-9):
+    """X1 S + Y1 C = Z1 and X2 S + Y2 C = Z2 for one angle: values (..., 2).
+
+    Independent equations give S and C, and one solution if S^2 + C^2 = 1.
+    Dependent ones leave the type-2 equation of the larger row, whose solutions
+    must satisfy the other row. Here `tolerance` is the accepted residual.
+    """
+    (X1, Y1, Z1, X2, Y2, Z2), tolerance = _coefficients(tolerance, X1, Y1, Z1, X2, Y2, Z2)
+    size1, size2 = np.hypot(X1, Y1), np.hypot(X2, Y2)
+    det = X1 * Y2 - X2 * Y1
+    independent = np.abs(det) > np.maximum(1e-6 * size1 * size2, tolerance**2)
+    angle = np.arctan2(_quotient(Z1 * Y2 - Z2 * Y1, det, independent),
+                       _quotient(X1 * Z2 - X2 * Z1, det, independent))
+
+    first = size1 >= size2
+    larger = type2(*(np.where(first, a, b) for a, b in [(X1, X2), (Y1, Y2), (Z1, Z2)]),
+                   tolerance=1e-12)
+    candidates = np.where(independent[..., None], _twice(angle), larger.values)
+    exists = np.where(independent[..., None], [True, False], larger.exists)
+    S, C = np.sin(candidates), np.cos(candidates)
+    for X, Y, Z in [(X1, Y1, Z1), (X2, Y2, Z2)]:
+        exists &= np.abs(X[..., None] * S + Y[..., None] * C - Z[..., None]) <= tolerance[..., None]
+    infinite = np.maximum(size1, size2) <= tolerance
+    infinite &= np.maximum(np.abs(Z1), np.abs(Z2)) <= tolerance
+    double = ~independent & (larger.status == DOUBLE)
+    return _roots(candidates, exists, infinite, "theta", double)
+
+
+def type6(W, X, Y, Z1, Z2, tolerance=1e-12):
+    """W Sj = X Ci + Y Si + Z1, W Cj = X Si - Y Ci + Z2: values (..., 2, 2).
+
+    Type 7 with theta_j measured from the other axis. Returns the pairs
+    (theta_i, theta_j).
+    """
+    roots = type7(W, 0.0, X, Y, Z1, Z2, tolerance)
+    values = roots.values.copy()
+    values[..., 1] = np.where(roots.exists, wrap(np.pi / 2 - values[..., 1]), 0.0)
+    return Roots(values, roots.exists, roots.status, roots.free)
+
+
+def type7(W1, W2, X, Y, Z1, Z2, tolerance=1e-12):
+    """W1 Cj + W2 Sj = X Ci + Y Si + Z1, W1 Sj - W2 Cj = X Si - Y Ci + Z2.
+
+    Returns the pairs (theta_i, theta_j), values (..., 2, 2). The sum of the
+    squares does not contain theta_j and is a type-2 equation in theta_i; then
+    Cj and Sj are linear. W1 = W2 = 0 leaves theta_j free, if a theta_i exists.
+    """
+    (W1, W2, X, Y, Z1, Z2), tolerance = _coefficients(tolerance, W1, W2, X, Y, Z1, Z2)
+    square = W1**2 + W2**2
+    regular = square > tolerance**2
+    outer = type2(2 * (Z1 * Y + Z2 * X), 2 * (Z1 * X - Z2 * Y),
+                  square - X**2 - Y**2 - Z1**2 - Z2**2, tolerance=1e-12)
+    alone = type3(Y, X, -Z1, X, -Y, -Z2)
+    theta_i = np.where(regular[..., None], outer.values, alone.values)
+    C, S = np.cos(theta_i), np.sin(theta_i)
+    right1 = X[..., None] * C + Y[..., None] * S + Z1[..., None]
+    right2 = X[..., None] * S - Y[..., None] * C + Z2[..., None]
+    theta_j = np.where(regular[..., None],
+                       np.arctan2(W2[..., None] * right1 + W1[..., None] * right2,
+                                  W1[..., None] * right1 - W2[..., None] * right2), 0.0)
+    infinite = np.where(regular, outer.status == INFINITE, alone.status != NONE)
+    free = np.where(regular, "theta_i", np.where(alone.status == INFINITE,
+                                                 "theta_i and theta_j", "theta_j"))
+    exists = outer.exists & regular[..., None]
+    return _roots(np.stack([theta_i, theta_j], axis=-1), exists, infinite, free,
+                  outer.status == DOUBLE)
+
+
+def type8(X, Y, Z1, Z2, tolerance=1e-12):
+    """X Ci + Y Cij = Z1, X Si + Y Sij = Z2: values (..., 2, 2).
+
+    Returns the pairs (theta_i, theta_j); the first has theta_j >= 0, the second
+    theta_j <= 0. With rho = hypot(Z1, Z2): two solutions for
+    ``||X| - |Y|| < rho < |X| + |Y|``, one on the limits, none outside. Infinitely
+    many when X or Y is zero and rho equals the other, or when rho = 0 and
+    ``|X| = |Y|``. The sine of theta_j is taken from the product of the four
+    differences rho +- X +- Y, which stays accurate at the limits.
+    """
+    (X, Y, Z1, Z2), tolerance = _coefficients(tolerance, X, Y, Z1, Z2)
+    rho = np.hypot(Z1, Z2)
+    long, short = np.abs(X) + np.abs(Y), np.abs(np.abs(X) - np.abs(Y))
+    no_X, no_Y, no_Z = np.abs(X) <= tolerance, np.abs(Y) <= tolerance, rho <= tolerance
+    in_reach = (rho <= long + tolerance) & (rho >= short - tolerance)
+    folded = no_Z & (short <= tolerance)
+    double = (np.abs(rho - long) <= tolerance) | (np.abs(rho - short) <= tolerance)
+
+    product = (long - rho) * (long + rho) * (rho - short) * (rho + short)
+    sine = np.sqrt(np.where(double, 0.0, np.maximum(product, 0.0)))
+    cosine = (rho**2 - X**2 - Y**2) * np.where(X * Y < 0, -1.0, 1.0)
+    bend = np.where(no_X | no_Y, 0.0, np.arctan2(sine, cosine))
+    theta_j = np.stack([bend, -bend], axis=-1)
+    X, Y = X[..., None], Y[..., None]
+    theta_i = np.arctan2(Z2, Z1)[..., None] - np.arctan2(Y * np.sin(theta_j),
+                                                         X + Y * np.cos(theta_j))
+    values = wrap(np.stack([np.where(folded[..., None], 0.0, theta_i), theta_j], axis=-1))
+    infinite = in_reach & (no_X | no_Y | folded)
+    free = np.select([no_X & no_Y, no_X, no_Y],
+                     ["theta_i and theta_j", "theta_i (theta_i + theta_j defined)", "theta_j"],
+                     "theta_i")
+    return _roots(values, _twice(in_reach), infinite, free, double)
+
+
+def _coefficients(tolerance, *coefficients):
+    """The coefficients as arrays of one shape, and the tolerance scaled to them."""
+    arrays = np.broadcast_arrays(*(np.asarray(c, float) for c in coefficients))
+    if not all(np.isfinite(a).all() for a in arrays):
+        raise ValueError("coefficients are finite numbers, found NaN or infinity")
+    return arrays, tolerance * np.maximum(1.0, np.abs(arrays).max(axis=0))
+
+
+def _roots(values, exists, infinite, free, double=False):
+    """`Roots` with one place for double and infinite cases, and the rest blank."""
+    exists = exists.copy()
+    exists[..., 1:] &= ~(infinite | double)[..., None]
+    exists[..., 0] |= infinite
+    blank = exists[..., None] if values.ndim > exists.ndim else exists
+    status = np.select([infinite, ~exists.any(axis=-1), double], [INFINITE, NONE, DOUBLE], SOLVED)
+    return Roots(np.where(blank, values, 0.0), exists, status, np.where(infinite, free, ""))
+
+
+def _twice(mask):
+    return np.stack([mask, mask], axis=-1)
+
+
+def _quotient(n, d, usable):
+    return np.where(usable, n, 0.0) / np.where(usable, d, 1.0)
