@@ -1,0 +1,176 @@
+"""Direct geometric models: textbook symbolic form, and a vectorised numeric kernel.
+
+Both use the same idea: consecutive parallel axes are merged before anything is multiplied
+out. In a run of parallel (or opposite) axes the angles add up, so the run is one plane
+displacement, and cos(t2 + t3) appears as such instead of being rediscovered afterwards.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import sympy as sp
+
+from .elementary import rot_x, trans_x
+
+_BLOCK = 4096  # poses treated at a time, so that the intermediate arrays stay in the cache
+
+
+def recursion(rows, tool) -> list[sp.Matrix]:
+    """The list [U_0, ..., U_n] with U_n = tool and U_{j-1} = j-1Tj U_j.
+
+    Source: MECA 953 slides, "calcul de U_j". Every U_j is in textbook form: products are
+    left factored and sums of angles of parallel axes stay sums.
+    """
+    below = {len(rows): sp.Matrix(tool)}
+    for start in reversed(range(len(rows))):
+        end = _end_of_parallel_run(rows, start)
+        below[start] = _merge(rows[start:end]) * below[end]
+    return [below[j] for j in range(len(rows) + 1)]
+
+
+def _end_of_parallel_run(rows, start: int) -> int:
+    end = start + 1
+    while end < len(rows) and sp.cos(rows[end].alpha) in (1, -1):
+        end += 1
+    return end
+
+
+def _merge(rows) -> sp.Matrix:
+    """Product of rows whose axes are all parallel or opposite to the first one."""
+    first, *others = rows
+    angle, x, y, z, up = first.theta, sp.S.Zero, sp.S.Zero, first.d, sp.S.One
+    for row in others:
+        x += row.a * sp.cos(angle)
+        y += row.a * sp.sin(angle)
+        up *= sp.cos(row.alpha)
+        z += up * row.d
+        angle += up * row.theta
+    c, s = sp.cos(angle), sp.sin(angle)
+    plane = sp.Matrix([[c, -up * s, 0, x], [s, up * c, 0, y], [0, 0, up, z], [0, 0, 0, 1]])
+    return trans_x(first.a) * rot_x(first.alpha) * plane
+
+
+@dataclass(frozen=True)
+class Chain:
+    """A DHm table as plain numbers, ready for vectorised evaluation.
+
+    The variable of row i (theta_i when sigma = 0, d_i when sigma = 1) is
+    ``(coupling @ q + offset)[i]``, which covers joint offsets, reversed joints
+    (d_3 = -d_2 of the SCARA), constant tool rows and coupled joints.
+
+    Attributes: ``a, cos_alpha, sin_alpha, fixed`` of shape (rows,), metres and radians,
+    where ``fixed`` is the constant one of d_i and theta_i; ``prismatic`` (rows,) bool;
+    ``coupling`` (rows, n); ``offset`` (rows,); ``base`` and ``tool`` (4, 4).
+    """
+
+    a: np.ndarray
+    cos_alpha: np.ndarray
+    sin_alpha: np.ndarray
+    fixed: np.ndarray
+    prismatic: np.ndarray
+    coupling: np.ndarray
+    offset: np.ndarray
+    base: np.ndarray
+    tool: np.ndarray
+
+    @property
+    def joints(self) -> int:
+        """Number n of joint variables."""
+        return self.coupling.shape[1]
+
+    def forward(self, q) -> np.ndarray:
+        """Poses of the tool for joint values q.
+
+        q: shape (..., n), radians (revolute) or metres (prismatic). Returns (..., 4, 4).
+        Raises ValueError when the last axis of q is not n or a value is not finite.
+        """
+        q = self._checked(q)
+        columns = q.reshape(-1, self.joints)
+        poses = np.empty((len(columns), 4, 4))
+        poses[:, 3] = (0.0, 0.0, 0.0, 1.0)
+        for start in range(0, len(columns), _BLOCK):
+            block = slice(start, start + _BLOCK)
+            *_, (x, y, z, p) = self._walk(columns[block])
+            for j, column in enumerate(self._with_tool(x, y, z, p)):
+                poses[block, :3, j] = column.T
+        return poses.reshape(*q.shape[:-1], 4, 4)
+
+    def frames(self, q) -> np.ndarray:
+        """Frames of all rows in the world: q (..., n) -> (..., rows, 4, 4)."""
+        q = self._checked(q)
+        columns = q.reshape(-1, self.joints)
+        frames = np.zeros((len(columns), len(self.a), 4, 4))
+        frames[..., 3, 3] = 1.0
+        for i, vectors in enumerate(self._walk(columns, every_frame=True)):
+            for j, column in enumerate(vectors):
+                frames[:, i, :3, j] = column.T
+        return frames.reshape(*q.shape[:-1], len(self.a), 4, 4)
+
+    def _checked(self, q) -> np.ndarray:
+        q = np.asarray(q, dtype=float)
+        if q.ndim == 0 or q.shape[-1] != self.joints:
+            raise ValueError(f"expected q of shape (..., {self.joints}), found {q.shape}")
+        if not np.isfinite(q).all():
+            raise ValueError("joint values must be finite numbers")
+        return q
+
+    @cached_property
+    def _variables(self) -> list[list[tuple[int, float]]]:
+        """For each row the joints that act on it, with their coefficients."""
+        return [[(j, row[j]) for j in np.flatnonzero(row)] for row in self.coupling]
+
+    def _walk(self, q: np.ndarray, every_frame: bool = False):
+        """Yield the axes and origin (x, y, z, p) of frames, each (3, 1) or (3, N), base first.
+
+        A frame is yielded at the end of each run of parallel axes, where it is needed to go
+        on, or after every row when ``every_frame`` is set.
+        """
+        x, y, z, p = (self.base[:3, j : j + 1] for j in range(4))
+        values = np.ascontiguousarray(q.T)
+        angle = 0.0  # turned about the common axis since the start of the run
+        along = x  # the x axis of the last row of the run
+        up = 1.0  # -1 when the axis of the last row is opposite to the run's
+        last = len(self.a) - 1
+        for i in range(last + 1):
+            if self.a[i]:
+                p = p + self.a[i] * along
+            if self.sin_alpha[i]:
+                y, z = (
+                    self.cos_alpha[i] * y + self.sin_alpha[i] * z,
+                    self.cos_alpha[i] * z - self.sin_alpha[i] * y,
+                )
+            else:
+                up = up * self.cos_alpha[i]
+            variable = self.offset[i]
+            for joint, coefficient in self._variables[i]:
+                turn = values[joint] if coefficient == 1.0 else coefficient * values[joint]
+                variable = turn + variable if np.ndim(variable) or variable else turn
+            slide, turn = self.fixed[i], variable
+            if self.prismatic[i]:
+                slide, turn = turn, slide
+            if np.ndim(slide) or slide:
+                p = p + (up * slide) * z
+            angle = angle + up * turn if np.ndim(angle) or angle else up * turn
+            run_ends = i == last or self.sin_alpha[i + 1] != 0.0
+            if not (run_ends or every_frame or self.a[i + 1]):
+                continue
+            c, s = np.cos(angle), np.sin(angle)
+            along = c * x + s * y
+            if not (run_ends or every_frame):
+                continue
+            across = c * y - s * x
+            yield along, up * across, up * z, p
+            if run_ends:
+                x, y, z = along, up * across, up * z
+                angle, up = 0.0, 1.0
+
+    def _with_tool(self, x, y, z, p):
+        if np.array_equal(self.tool, np.eye(4)):
+            return x, y, z, p
+        t = self.tool
+        columns = [t[0, j] * x + t[1, j] * y + t[2, j] * z for j in range(4)]
+        columns[3] = columns[3] + p
+        return columns

@@ -1,0 +1,352 @@
+"""Modified Denavit-Hartenberg tables: rows, transforms, recursion, rendering, conversions.
+
+A table describes a serial robot by rows (sigma_i, a_{i-1}, alpha_{i-1}, d_i, theta_i), the
+template of the MECA 953 slides: sigma_i = 0 for a revolute joint (variable theta_i), 1 for a
+prismatic one (variable d_i), ``q_i = (1 - sigma_i) theta_i + sigma_i d_i``.
+Lengths in metres, angles in radians, entries numeric or symbolic.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from numbers import Real
+
+import numpy as np
+import sympy as sp
+
+from . import forward as _forward
+from .elementary import (
+    exact_angle,
+    modified_dh,
+    modified_dh_inverse,
+    rigid_inverse,
+    rot_x,
+    trans_x,
+)
+
+_COLUMNS = ("sigma", "a", "alpha", "d", "theta")
+_HEADS = (r"\sigma_i", "a_{i-1}", r"\alpha_{i-1}", "d_i", r"\theta_i")
+
+
+@dataclass(frozen=True)
+class DHRow:
+    """One row of a modified DH table.
+
+    sigma: 0 revolute, 1 prismatic. a, d: metres. alpha, theta: radians. Numbers or sympy
+    expressions; floats within 1e-12 of a multiple of 15 degrees are taken as exact angles.
+    Raises ValueError naming the entry that is not a number or an expression.
+    """
+
+    sigma: int
+    a: sp.Expr
+    alpha: sp.Expr
+    d: sp.Expr
+    theta: sp.Expr
+
+    def __post_init__(self):
+        if isinstance(self.sigma, bool) or self.sigma not in (0, 1):
+            raise ValueError(f"sigma must be 0 (revolute) or 1 (prismatic), found {self.sigma!r}")
+        object.__setattr__(self, "sigma", int(self.sigma))
+        for column in _COLUMNS[1:]:
+            value = _expression(getattr(self, column), column)
+            if column in ("alpha", "theta"):
+                value = exact_angle(value)
+            object.__setattr__(self, column, value)
+
+    @property
+    def parameters(self) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
+        """(a, alpha, d, theta)."""
+        return self.a, self.alpha, self.d, self.theta
+
+    @property
+    def variable(self) -> sp.Expr:
+        """The entry the joint acts on: theta if revolute, d if prismatic."""
+        return self.d if self.sigma else self.theta
+
+    @property
+    def constant(self) -> sp.Expr:
+        """The other one of d and theta."""
+        return self.theta if self.sigma else self.d
+
+    def transform(self) -> sp.Matrix:
+        """Frame i seen from frame i-1, 4x4."""
+        return modified_dh(*self.parameters)
+
+    def inverse(self) -> sp.Matrix:
+        """Frame i-1 seen from frame i, 4x4."""
+        return modified_dh_inverse(*self.parameters)
+
+
+@dataclass(frozen=True)
+class DHTable:
+    """A serial robot in modified DH.
+
+    rows: sequence of DHRow or (sigma, a, alpha, d, theta). ``None`` in the place of the joint
+        variable stands for q1, q2, ... A row without joint variable is constant (a tool row).
+    name: for headings and messages.
+    joints: the joint variables in order. By default the one symbol found in each joint entry;
+        needed when an entry holds a symbolic offset (``r3 + r30``) or couples joints.
+    base, tool: constant 4x4 transforms before the first and after the last frame.
+    limits: one (lower, upper) pair per joint, radians or metres; None for no limit.
+
+    Raises ValueError, in words, for a wrong number of columns, an entry that is not a number
+    or expression, sigma outside {0, 1}, or a joint entry that is not a sum of joints and
+    constants.
+    """
+
+    rows: tuple[DHRow, ...]
+    name: str = ""
+    joints: tuple[sp.Symbol, ...] | None = None
+    base: sp.ImmutableMatrix | None = None
+    tool: sp.ImmutableMatrix | None = None
+    limits: tuple[tuple[float, float], ...] | None = None
+
+    def __post_init__(self):
+        rows = tuple(_row(row, i) for i, row in enumerate(self.rows, start=1))
+        if not rows:
+            raise ValueError("a DH table needs at least one row")
+        joints = _found_joints(rows) if self.joints is None else tuple(self.joints)
+        if len(set(joints)) != len(joints):
+            raise ValueError(f"a joint variable stands in two rows: {joints}; name them in joints=")
+        object.__setattr__(self, "rows", rows)
+        object.__setattr__(self, "joints", joints)
+        object.__setattr__(self, "base", _transform(self.base, "base"))
+        object.__setattr__(self, "tool", _transform(self.tool, "tool"))
+        object.__setattr__(self, "limits", _checked_limits(self.limits, joints))
+        self._coupling  # fails now, with a message, rather than at the first use
+
+    @cached_property
+    def _coupling(self) -> tuple[sp.Matrix, list[sp.Expr]]:
+        """Matrix and offsets with row variables = matrix * joints + offsets."""
+        matrix = sp.zeros(len(self.rows), len(self.joints))
+        offsets = []
+        for i, row in enumerate(self.rows):
+            rest = row.variable
+            for j, joint in enumerate(self.joints):
+                matrix[i, j] = row.variable.diff(joint)
+                rest = rest - matrix[i, j] * joint
+            rest = sp.expand(rest)
+            if not all(entry.is_number for entry in matrix[i, :]) or rest.has(*self.joints):
+                raise ValueError(
+                    f"row {i + 1}: the joint entry {row.variable} must be a sum of joint "
+                    "variables and constants"
+                )
+            offsets.append(rest)
+        return matrix, offsets
+
+    def transforms(self) -> list[sp.Matrix]:
+        """The elementary transforms [0T1, 1T2, ...], one 4x4 per row."""
+        return [row.transform() for row in self.rows]
+
+    def inverses(self) -> list[sp.Matrix]:
+        """The inverse transforms [1T0, 2T1, ...], one 4x4 per row."""
+        return [row.inverse() for row in self.rows]
+
+    def product(self) -> sp.Matrix:
+        """base 0T1 1T2 ... tool multiplied out as it stands, nothing merged."""
+        result = sp.Matrix(self.base)
+        for transform in self.transforms():
+            result = result * transform
+        return result * self.tool
+
+    def inverse(self) -> sp.Matrix:
+        """Inverse of the direct model: the base seen from the tool, 4x4."""
+        return rigid_inverse(self.symbolic_forward())
+
+    def recursion(self) -> list[sp.Matrix]:
+        """[U_0, ..., U_n] with U_n = tool, U_{j-1} = j-1Tj U_j (MECA 953 slides)."""
+        return _forward.recursion(self.rows, self.tool)
+
+    def symbolic_forward(self) -> sp.Matrix:
+        """Direct model as a 4x4 sympy matrix in textbook form (parallel axes merged)."""
+        return self.base * self.recursion()[0]
+
+    def forward(self, q) -> np.ndarray:
+        """Direct model: q of shape (..., n), radians or metres -> poses (..., 4, 4)."""
+        return self.chain.forward(q)
+
+    @cached_property
+    def chain(self) -> _forward.Chain:
+        """The table as numbers. Raises ValueError naming the lengths that have no value."""
+        matrix, offsets = self._coupling
+        free = set().union(
+            *(row.a.free_symbols | row.alpha.free_symbols for row in self.rows),
+            *(row.constant.free_symbols for row in self.rows),
+            *(offset.free_symbols for offset in offsets),
+            self.base.free_symbols,
+            self.tool.free_symbols,
+        )
+        if free:
+            names = ", ".join(sorted(map(str, free)))
+            raise ValueError(f"give numbers for {names} first: table.at({{...}})")
+        return _forward.Chain(
+            a=_numbers(row.a for row in self.rows),
+            cos_alpha=_numbers(sp.cos(row.alpha) for row in self.rows),
+            sin_alpha=_numbers(sp.sin(row.alpha) for row in self.rows),
+            fixed=_numbers(row.constant for row in self.rows),
+            prismatic=np.array([bool(row.sigma) for row in self.rows]),
+            coupling=_numbers(matrix).reshape(matrix.shape),
+            offset=_numbers(offsets),
+            base=_numbers(self.base).reshape(4, 4),
+            tool=_numbers(self.tool).reshape(4, 4),
+        )
+
+    def at(self, values: Mapping) -> DHTable:
+        """The same table with symbols replaced: ``table.at({"a2": 0.3, d3: 0.1})``.
+
+        Keys are symbols or their names. Raises ValueError for a name the table does not use.
+        """
+        by_name = {str(symbol): value for symbol, value in values.items()}
+        known = {s.name: s for row in self.rows for e in row.parameters for s in e.free_symbols}
+        known |= {s.name: s for m in (self.base, self.tool) for s in m.free_symbols}
+        unknown = sorted(set(by_name) - set(known))
+        if unknown:
+            raise ValueError(f"no symbol {', '.join(unknown)} in the table: it has {sorted(known)}")
+        chosen = {known[name]: value for name, value in by_name.items()}
+        rows = [
+            DHRow(row.sigma, *(entry.subs(chosen) for entry in row.parameters))
+            for row in self.rows
+        ]
+        return replace(
+            self,
+            rows=rows,
+            joints=tuple(joint for joint in self.joints if joint not in chosen),
+            base=self.base.subs(chosen),
+            tool=self.tool.subs(chosen),
+        )
+
+    def to_classic(self) -> ClassicTable:
+        """The same robot in classic DH: column a_i, alpha_i moved up by one row."""
+        first = self.rows[0]
+        shifted = [(row.a, row.alpha) for row in self.rows[1:]] + [(sp.S.Zero, sp.S.Zero)]
+        rows = tuple(
+            DHRow(row.sigma, a, alpha, row.d, row.theta)
+            for row, (a, alpha) in zip(self.rows, shifted)
+        )
+        base = self.base * trans_x(first.a) * rot_x(first.alpha)
+        return ClassicTable(rows, self.name, self.joints, sp.ImmutableMatrix(base), self.tool)
+
+    @classmethod
+    def from_classic(cls, rows: Iterable, **options) -> DHTable:
+        """A modified table from classic rows (sigma, a_i, alpha_i, d_i, theta_i).
+
+        The last a_n, alpha_n become part of the tool. Options as for DHTable.
+        """
+        rows = [_row(row, i) for i, row in enumerate(rows, start=1)]
+        shifted = [(sp.S.Zero, sp.S.Zero)] + [(row.a, row.alpha) for row in rows]
+        modified = [
+            DHRow(row.sigma, a, alpha, row.d, row.theta)
+            for row, (a, alpha) in zip(rows, shifted)
+        ]
+        a, alpha = shifted[-1]
+        tool = trans_x(a) * rot_x(alpha) * _transform(options.pop("tool", None), "tool")
+        return cls(modified, tool=tool, **options)
+
+    def to_markdown(self) -> str:
+        """The table in the slides' layout (i, sigma_i, a_{i-1}, alpha_{i-1}, d_i, theta_i)."""
+        heads = ["$i$"] + [f"${head}$" for head in _HEADS]
+        lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
+        for i, row in enumerate(self.rows, start=1):
+            cells = [str(i), str(row.sigma)] + [f"${_latex(e)}$" for e in row.parameters]
+            lines.append("| " + " | ".join(cells) + " |")
+        return "\n".join(lines)
+
+    def to_latex(self) -> str:
+        """The table as a LaTeX array in the slides' layout."""
+        lines = [" & ".join(["i", *_HEADS]) + r" \\ \hline"]
+        for i, row in enumerate(self.rows, start=1):
+            cells = [str(i), str(row.sigma), *map(_latex, row.parameters)]
+            lines.append(" & ".join(cells) + r" \\")
+        return "\\begin{array}{c|c|cccc}\n" + "\n".join(lines) + "\n\\end{array}"
+
+    def _repr_markdown_(self) -> str:
+        return self.to_markdown()
+
+
+@dataclass(frozen=True)
+class ClassicTable:
+    """A serial robot in classic DH: base, rows (sigma, a_i, alpha_i, d_i, theta_i), tool."""
+
+    rows: tuple[DHRow, ...]
+    name: str
+    joints: tuple[sp.Symbol, ...]
+    base: sp.ImmutableMatrix
+    tool: sp.ImmutableMatrix
+
+    def to_modified(self) -> DHTable:
+        """The same robot in modified DH."""
+        return DHTable.from_classic(
+            self.rows, name=self.name, joints=self.joints, base=self.base, tool=self.tool
+        )
+
+
+def _row(row, index: int) -> DHRow:
+    if isinstance(row, DHRow):
+        return row
+    if isinstance(row, str) or not isinstance(row, (Sequence, np.ndarray, sp.MatrixBase)):
+        raise ValueError(f"row {index}: expected {', '.join(_COLUMNS)}, found {row!r}")
+    row = list(row)
+    if len(row) != len(_COLUMNS):
+        raise ValueError(
+            f"row {index}: expected {len(_COLUMNS)} columns ({', '.join(_COLUMNS)}), "
+            f"found {len(row)}"
+        )
+    place = 3 if row[0] == 1 else 4
+    if row[place] is None:
+        row[place] = sp.Symbol(f"q{index}", real=True)
+    try:
+        return DHRow(*row)
+    except ValueError as error:
+        raise ValueError(f"row {index}: {error}") from None
+
+
+def _expression(value, column: str) -> sp.Expr:
+    if isinstance(value, (Real, sp.Expr)) and not isinstance(value, bool):
+        expression = sp.sympify(value)
+        if expression.is_finite is not False and expression.is_extended_real is not False:
+            return expression
+    raise ValueError(f"{column} must be a real number or a sympy expression, found {value!r}")
+
+
+def _found_joints(rows) -> tuple[sp.Symbol, ...]:
+    joints = []
+    for i, row in enumerate(rows, start=1):
+        symbols = row.variable.free_symbols
+        if len(symbols) > 1:
+            raise ValueError(
+                f"row {i}: which of the symbols in {row.variable} is the joint variable? "
+                "Name the joints in joints=(...)"
+            )
+        joints += symbols
+    return tuple(joints)
+
+
+def _transform(value, what: str) -> sp.ImmutableMatrix:
+    matrix = sp.eye(4) if value is None else sp.Matrix(value)
+    if matrix.shape != (4, 4) or list(matrix[3, :]) != [0, 0, 0, 1]:
+        raise ValueError(f"{what} must be a 4x4 transform with last row 0 0 0 1")
+    return sp.ImmutableMatrix(matrix)
+
+
+def _checked_limits(limits, joints):
+    if limits is None:
+        return None
+    limits = tuple((float(low), float(high)) for low, high in limits)
+    if len(limits) != len(joints):
+        raise ValueError(f"expected {len(joints)} pairs of joint limits, found {len(limits)}")
+    for joint, (low, high) in zip(joints, limits):
+        if not low <= high:
+            raise ValueError(f"limits of {joint}: lower {low} is above upper {high}")
+    return limits
+
+
+def _numbers(entries) -> np.ndarray:
+    return np.array([float(entry) for entry in entries])
+
+
+def _latex(expression: sp.Expr) -> str:
+    names = {s: s.name.replace("t", r"\theta_", 1) for s in expression.free_symbols
+             if s.name[0] == "t" and s.name[1:].isdigit()}
+    return sp.latex(expression, symbol_names=names)

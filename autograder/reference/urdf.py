@@ -1,0 +1,159 @@
+"""From URDF joint origins and axes to a modified DH table.
+
+A URDF joint gives the origin of the joint frame in the parent's frame (xyz, rpy) and an axis
+in the joint frame. Only the joint axes matter to DH, so the axes are laid out at q = 0 and
+the DHm frames are put on them, as steps 1 to 7 of the MECA 953 slides do by hand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import sympy as sp
+
+from .tables import DHTable
+
+_PARALLEL = 1e-9  # sine of the angle under which two axes count as parallel
+_TOUCHING = 1e-9  # metres under which two axes count as meeting
+
+
+@dataclass(frozen=True)
+class UrdfJoint:
+    """One joint of a URDF file.
+
+    xyz: origin in the parent frame, metres. rpy: roll, pitch, yaw about the fixed x, y, z
+    axes, radians. axis: direction in the joint frame. kind: "revolute" (also for
+    "continuous"), "prismatic" or "fixed".
+    """
+
+    xyz: tuple[float, float, float]
+    rpy: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    axis: tuple[float, float, float] = (1.0, 0.0, 0.0)
+    kind: str = "revolute"
+
+    def origin(self) -> np.ndarray:
+        """Joint frame in the parent frame at q = 0, 4x4."""
+        frame = np.eye(4)
+        roll, pitch, yaw = self.rpy
+        frame[:3, :3] = _turn(2, yaw) @ _turn(1, pitch) @ _turn(0, roll)
+        frame[:3, 3] = self.xyz
+        return frame
+
+
+def table_from_urdf(joints: Sequence[UrdfJoint], name: str = "", limits=None) -> DHTable:
+    """DHm table of a serial chain of URDF joints; joint variables q1, q2, ...
+
+    The base and tool of the table make its direct model equal to the URDF's: base link to the
+    frame of the last joint, fixed joints included. Where DH leaves X_i free it is chosen as
+    near to X_{i-1} as possible (joint offset in [-90, 90] degrees), and if that does not
+    decide, so that a_i >= 0. Source: joint list of the MECA 953 slides, whose axes
+    z, y, y, x, y, x are those of the public KR210 description.
+
+    Raises ValueError when no joint moves, or an axis is the zero vector.
+    """
+    points, axes, sigmas, end = _axes_at_zero(joints)
+    if not axes:
+        raise ValueError("the chain has no moving joint")
+    base = _base_frame(points[0], axes[0])
+    z, x, origin = base[:3, 2], base[:3, 0], base[:3, 3]
+    rows = []
+    a, alpha = 0.0, 0.0
+    for i, (axis, sigma) in enumerate(zip(axes, sigmas)):
+        if i + 1 < len(axes):
+            foot, next_x, next_a = _common_normal(origin, axis, points[i + 1], axes[i + 1], x)
+        else:
+            foot, next_x, next_a = origin, x, 0.0
+        d = float(axis @ (foot - origin))
+        theta = _angle(x, next_x, axis)
+        joint = sp.Symbol(f"q{i + 1}")
+        entries = [_tidy(d), sp.nsimplify(_tidy(theta / np.pi), rational=False) * sp.pi]
+        entries[1 - sigma] += joint
+        rows.append((sigma, _tidy(a), alpha, *entries))
+        x, z, a = next_x, axis, next_a
+        origin = foot + next_a * next_x
+        if i + 1 < len(axes):
+            alpha = _angle(axis, axes[i + 1], next_x)
+    last = np.eye(4)
+    last[:3, :3] = np.column_stack([x, np.cross(z, x), z])
+    last[:3, 3] = origin
+    tool = np.linalg.inv(last) @ end
+    return DHTable(rows, name=name, base=_tidy(base), tool=_tidy(tool), limits=limits)
+
+
+def _axes_at_zero(joints):
+    """Points on the axes, axis directions and sigmas in the base frame, and the last frame."""
+    frame = np.eye(4)
+    points, axes, sigmas = [], [], []
+    for i, joint in enumerate(joints, start=1):
+        frame = frame @ joint.origin()
+        if joint.kind == "fixed":
+            continue
+        if joint.kind not in ("revolute", "continuous", "prismatic"):
+            raise ValueError(f"joint {i}: unknown kind {joint.kind!r}")
+        length = np.linalg.norm(joint.axis)
+        if length == 0:
+            raise ValueError(f"joint {i}: the axis is the zero vector")
+        points.append(frame[:3, 3])
+        axes.append(frame[:3, :3] @ (np.asarray(joint.axis) / length))
+        sigmas.append(1 if joint.kind == "prismatic" else 0)
+    return points, axes, sigmas, frame
+
+
+def _base_frame(point, axis) -> np.ndarray:
+    """Frame 0: the URDF base if its z axis is axis 1, else a frame placed on axis 1."""
+    on_z = np.hypot(axis[0], axis[1]) < _PARALLEL and np.hypot(point[0], point[1]) < _TOUCHING
+    if on_z and axis[2] > 0:
+        return np.eye(4)
+    frame = np.eye(4)
+    helper = np.eye(3)[np.argmin(np.abs(axis))]
+    x = helper - (helper @ axis) * axis
+    x /= np.linalg.norm(x)
+    frame[:3, :3] = np.column_stack([x, np.cross(axis, x), axis])
+    frame[:3, 3] = point
+    return frame
+
+
+def _common_normal(origin, axis, next_point, next_axis, previous_x):
+    """Foot of the common normal on the axis, X direction and signed length a to the next axis."""
+    between = next_point - origin
+    cross = np.cross(axis, next_axis)
+    if np.linalg.norm(cross) < _PARALLEL:
+        foot = origin
+        across = between - (between @ axis) * axis
+    else:
+        along = np.linalg.det([between, next_axis, cross]) / (cross @ cross)
+        foot = origin + along * axis
+        across = ((between @ cross) / (cross @ cross)) * cross
+    length = np.linalg.norm(across)
+    if length > _TOUCHING:
+        x = across / length
+    elif np.linalg.norm(cross) < _PARALLEL:
+        x = previous_x - (previous_x @ axis) * axis
+        x = x / np.linalg.norm(x)
+    else:
+        x = cross / np.linalg.norm(cross)
+    if x @ previous_x < -_PARALLEL:
+        x = -x
+    return foot, x, float(across @ x)
+
+
+def _angle(start, end, about) -> float:
+    """Angle from one vector to another about an axis perpendicular to both, radians."""
+    return float(np.arctan2(np.cross(start, end) @ about, start @ end))
+
+
+def _turn(axis: int, angle: float) -> np.ndarray:
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    turn = np.eye(3)
+    turn[i, i] = turn[j, j] = np.cos(angle)
+    turn[j, i] = np.sin(angle)
+    turn[i, j] = -turn[j, i]
+    return turn
+
+
+def _tidy(values):
+    """Numbers without rounding noise: 0.75 for 0.7500000000000001, 0 for 1e-17."""
+    tidied = np.round(values, 12) + 0.0
+    return tidied if tidied.ndim else float(tidied)
