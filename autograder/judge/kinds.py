@@ -124,8 +124,7 @@ def _read_vector(question: PublicQuestion, value: object) -> tuple:
 
 
 def _read_array(question: PublicQuestion, value: object) -> tuple:
-    shape = question.shape if question.kind != "dh_table" else (question.shape[0], len(DH_COLUMNS))
-    if array_shape(value) != shape:
+    if array_shape(value) != question.shape:
         raise _refuse(question, describe(value))
     return _entries(question, _flatten(value))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .public import DH_COLUMNS, PublicQuestion
+from .public import PublicQuestion
 
 
 def is_blank(node: object) -> bool:
@@ -76,8 +76,6 @@ def _wrong_form(question: PublicQuestion, node: object) -> str | None:
     elif kind == "joint_solutions":
         count = len(question.joints)
         fits = shape == (0,) or (shape is not None and shape[-1:] == (count,) and len(shape) in (1, 2))
-    elif kind == "dh_table":
-        fits = shape == (question.shape[0], len(DH_COLUMNS))
     else:
         fits = shape == question.shape
     return None if fits else describe(node)

@@ -81,7 +81,7 @@ def test_transform_credit_is_per_block():
 
 
 def test_table_credit_is_per_row_and_angles_wrap():
-    form = question("dh_table", shape=(2,), joints=("t1", "t2"))
+    form = question("dh_table", shape=(2, 5), joints=("t1", "t2"))
     rows = [[0, 0, 0, 0, t1], [0, 1, sympy.pi / 2, 0, t2]]
     wrapped = [[0, 0, 2 * sympy.pi, 0, t1], [0, 1, -3 * sympy.pi / 2, 0, t2]]
     assert compare(form, wrapped, rows).equal
