@@ -31,7 +31,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from autograder.reference.orientation import wrap
+from .orientation import wrap
 
 SOLVED = "solved"
 DOUBLE = "boundary: the two solutions merge"
@@ -45,10 +45,9 @@ class Roots:
 
     Attributes
     ----------
-    values : array, shape (..., m) or (..., m, 2)
-        m places for solutions, of one unknown or of the pair (theta_i,
-        theta_j). Zero where `exists` is False. When there are infinitely many
-        the first place holds a representative.
+    values : array, shape (..., m) or (..., m, u)
+        m places for solutions, of one unknown or of u. Zero where `exists` is
+        False. When there are infinitely many the first is a representative.
     exists : bool array, shape (..., m)
     status : array of str, shape (...)
         `SOLVED`, `DOUBLE`, `NONE` or `INFINITE`.
@@ -67,9 +66,9 @@ class Roots:
         return np.where(self.status == INFINITE, -1, self.exists.sum(axis=-1))
 
     def listed(self):
-        """The solutions of a single equation, shape (count,) or (count, 2)."""
+        """The solutions of a single problem, shape (count,) or (count, u)."""
         if self.exists.ndim != 1:
-            raise ValueError("list one equation at a time: this is a batch of shape "
+            raise ValueError("list one problem at a time: this is a batch of shape "
                              f"{self.exists.shape[:-1]}")
         return self.values[self.exists]
 

@@ -304,10 +304,18 @@ def _row(row, index: int) -> DHRow:
 
 def _expression(value, column: str) -> sp.Expr:
     if isinstance(value, (Real, sp.Expr)) and not isinstance(value, bool):
-        expression = sp.sympify(value)
-        if expression.is_finite is not False and expression.is_extended_real is not False:
+        expression = _exact_integer(sp.sympify(value))
+        possible = expression.is_finite is not False and expression.is_extended_real is not False
+        if possible and not expression.has(sp.nan):
             return expression
     raise ValueError(f"{column} must be a real number or a sympy expression, found {value!r}")
+
+
+def _exact_integer(expression: sp.Expr) -> sp.Expr:
+    """Float 0.0, 1.0, ... as Integer: sympy tells them apart, and only Integer 0 vanishes."""
+    if expression.is_Float and float(expression).is_integer():
+        return sp.Integer(int(expression))
+    return expression
 
 
 def _found_joints(rows) -> tuple[sp.Symbol, ...]:
@@ -324,7 +332,7 @@ def _found_joints(rows) -> tuple[sp.Symbol, ...]:
 
 
 def _transform(value, what: str) -> sp.ImmutableMatrix:
-    matrix = sp.eye(4) if value is None else sp.Matrix(value)
+    matrix = sp.eye(4) if value is None else sp.Matrix(value).applyfunc(_exact_integer)
     if matrix.shape != (4, 4) or list(matrix[3, :]) != [0, 0, 0, 1]:
         raise ValueError(f"{what} must be a 4x4 transform with last row 0 0 0 1")
     return sp.ImmutableMatrix(matrix)

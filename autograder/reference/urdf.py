@@ -68,7 +68,7 @@ def table_from_urdf(joints: Sequence[UrdfJoint], name: str = "", limits=None) ->
         d = float(axis @ (foot - origin))
         theta = _angle(x, next_x, axis)
         joint = sp.Symbol(f"q{i + 1}")
-        entries = [_tidy(d), sp.nsimplify(_tidy(theta / np.pi), rational=False) * sp.pi]
+        entries = [_tidy(d), theta]
         entries[1 - sigma] += joint
         rows.append((sigma, _tidy(a), alpha, *entries))
         x, z, a = next_x, axis, next_a
@@ -155,5 +155,6 @@ def _turn(axis: int, angle: float) -> np.ndarray:
 
 def _tidy(values):
     """Numbers without rounding noise: 0.75 for 0.7500000000000001, 0 for 1e-17."""
-    tidied = np.round(values, 12) + 0.0
+    short = np.round(values, 9) + 0.0
+    tidied = np.where(np.abs(values - short) < 1e-14, short, values)
     return tidied if tidied.ndim else float(tidied)
