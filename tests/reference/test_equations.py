@@ -225,5 +225,5 @@ def test_batches_broadcast_and_bad_input_is_refused():
     assert eq.type2(np.empty(0), 1.0, 0.5).values.shape == (0, 2)
     with pytest.raises(ValueError, match="finite"):
         eq.type2(1.0, np.nan, 0.0)
-    with pytest.raises(ValueError, match="one equation at a time"):
+    with pytest.raises(ValueError, match="one problem at a time"):
         eq.type2([1.0, 1.0], 0.0, 0.0).listed()
