@@ -1,0 +1,298 @@
+"""What a sandbox can see, as arguments of ``bwrap``, and the process started from them.
+
+A kernel sees the system read-only, its Python environment read-only, the
+package ``dhkit`` read-only, and private file systems of limited size.  Nothing
+of the host can be written, and nothing else of the host can be read.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib.util
+import marshal
+import os
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import IO
+
+from . import seccomp
+from .limits import Limits
+
+HOME = "/home/student"
+WORK = HOME + "/work"
+PRIVATE = ("/tmp", "/dev/shm", HOME)
+STUDENT_UID = 1000
+
+SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
+CONFIGURATION = ("/etc/ld.so.cache", "/etc/fonts", "/etc/localtime", "/etc/alternatives", "/etc/mime.types")
+ENVIRONMENT_PARTS = ("bin", "lib", "lib64", "share", "etc", "ssl", "pyvenv.cfg")
+
+INSTALL = "install it: apt-get install bubblewrap (Fedora: dnf install bubblewrap)"
+NAMESPACES = (
+    "this user may not create user namespaces: run as root, or as root allow them with"
+    " 'sysctl -w kernel.unprivileged_userns_clone=1' (Debian) or"
+    " 'sysctl -w kernel.apparmor_restrict_unprivileged_userns=0' (Ubuntu 24.04 and later);"
+    " in a container start it with --privileged"
+)
+
+
+class SandboxUnavailable(RuntimeError):
+    """No sandbox can be had here; the message says what is missing and how to get it."""
+
+
+def kernel_environment() -> dict[str, str]:
+    """The whole environment of a sandboxed kernel."""
+    threads = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS")
+    return {
+        "PATH": f"{sys.prefix}/bin:/usr/local/bin:/usr/bin:/bin",
+        "HOME": HOME,
+        "USER": "student",
+        "LANG": "C.UTF-8",
+        "TMPDIR": "/tmp",
+        "MPLBACKEND": "module://matplotlib_inline.backend_inline",
+        "MALLOC_ARENA_MAX": "2",
+        "PYTHONDONTWRITEBYTECODE": "1",
+        **{name: "1" for name in threads},
+    }
+
+
+def python_places() -> list[tuple[str, str]]:
+    """(host path, path inside) of everything the running Python needs, files and folders."""
+    prefixes = dict.fromkeys((sys.prefix, sys.exec_prefix, sys.base_prefix, sys.base_exec_prefix))
+    places = [
+        (os.path.realpath(os.path.join(root, part)), os.path.join(root, part))
+        for prefix in prefixes
+        for root in dict.fromkeys((prefix, os.path.realpath(prefix)))
+        for part in ENVIRONMENT_PARTS
+        if os.path.exists(os.path.join(root, part))
+    ]
+    hop = sys.executable
+    while os.path.islink(hop):
+        places.append((os.path.realpath(hop), hop))
+        hop = os.path.normpath(os.path.join(os.path.dirname(hop), os.readlink(hop)))
+    places.append((os.path.realpath(hop), hop))
+    return places
+
+
+def package_folder(name: str) -> str | None:
+    """Folder of an installed package, found without importing it."""
+    spec = importlib.util.find_spec(name)
+    return spec.submodule_search_locations[0] if spec and spec.submodule_search_locations else None
+
+
+def own_private_folders() -> list[str]:
+    """This package's own folder and, when it is run from a checkout, the whole checkout."""
+    package = Path(__file__).resolve().parents[1]
+    installed = package.parent.name in ("site-packages", "dist-packages")
+    return [str(package)] if installed else [str(package), str(package.parent)]
+
+
+def inside(path: str, folder: str) -> bool:
+    """Whether path lies strictly below folder."""
+    return path != folder and os.path.commonpath((path, folder)) == folder
+
+
+def mounts(limits: Limits, hidden: Iterable[str] = ()) -> list[str]:
+    """The bwrap arguments that build the file system of one sandbox.
+
+    ``hidden`` names host folders that must not be seen even where a folder
+    above them is bound.
+    """
+    visible: dict[str, list[str]] = {}
+    for path in SYSTEM:
+        if os.path.islink(path):
+            visible[path] = ["--symlink", os.readlink(path), path]
+        elif os.path.exists(path):
+            visible[path] = ["--ro-bind", path, path]
+    for path in CONFIGURATION:
+        if os.path.exists(path):
+            visible[path] = ["--ro-bind", os.path.realpath(path), path]
+    places = python_places()
+    dhkit = package_folder("dhkit")
+    if dhkit is not None:
+        places.append((os.path.realpath(dhkit), dhkit))
+    for source, path in sorted(places, key=lambda place: place[1]):
+        if not any(path == other or inside(path, other) for other in visible):
+            visible[path] = ["--ro-bind", source, path]
+
+    masks = [
+        path
+        for path in dict.fromkeys((*own_private_folders(), *map(os.path.realpath, hidden)))
+        if os.path.isdir(path) and any(inside(path, other) for other in visible)
+    ]
+    needed = [place for place in places if any(inside(place[1], mask) for mask in masks)]
+    # bwrap gives the folders above a mount the mode 0700: only root could pass through them.
+    above = {str(parent) for path in visible for parent in Path(path).parents} - {"/"}
+    steps = {path: ["--perms", "0755", "--dir", path] for path in above}
+    steps |= visible
+    for path in masks:
+        steps[path] = ["--perms", "0555", "--size", "65536", "--tmpfs", path]
+    for source, path in needed:
+        steps[path] = ["--ro-bind", source, path]
+    steps["/proc"] = ["--proc", "/proc"]
+    steps["/dev"] = ["--dev", "/dev"]
+    for path in PRIVATE:
+        steps[path] = ["--perms", "1777", "--size", str(limits.disk), "--tmpfs", path]
+    ordered = sorted(steps, key=lambda path: (path.count("/"), path))
+    arguments = [word for path in ordered for word in steps[path]]
+    for path in (*masks, "/dev", "/"):
+        arguments += ["--remount-ro", path]
+    return arguments
+
+
+def unused_uid() -> int:
+    """A user id that nobody has, for one sandbox started by root; a different one at each call."""
+    with open("/proc/self/uid_map") as file:
+        top = max(int(start) + int(length) for start, _, length in map(str.split, file)) - 1
+    low, high = (1 << 30, 1 << 31) if top >= 1 << 31 else (top - min(5000, top // 2), top - 2)
+    return random.SystemRandom().randrange(low, high)
+
+
+def process_quota(limits: Limits, uid: int | None) -> int:
+    """Value for RLIMIT_NPROC.
+
+    Since Linux 5.14 processes are counted per user namespace, before that per
+    user over the whole machine, where an ordinary user's other processes count too.
+    """
+    release = tuple(int(part) for part in os.uname().release.split(".")[:2] if part.isdigit())
+    if uid is not None or release >= (5, 14):
+        return limits.processes
+    import psutil
+
+    mine = os.getuid()
+    running = psutil.process_iter(["uids", "num_threads"])
+    return limits.processes + sum(
+        process.info["num_threads"] or 0
+        for process in running
+        if process.info["uids"] and process.info["uids"].real == mine
+    )
+
+
+def resource_limits(limits: Limits, uid: int | None) -> dict[str, int]:
+    """Names and values for setrlimit in each process of the sandbox.
+
+    RLIMIT_DATA counts what can be written, so that a large allocation fails
+    in the cell that asks for it; RLIMIT_AS leaves room for libraries mapped
+    and reserved but never touched, and catches shared mappings.
+    """
+    return {
+        "RLIMIT_DATA": limits.memory,
+        "RLIMIT_AS": limits.memory + (3 << 30),
+        "RLIMIT_NPROC": process_quota(limits, uid),
+        "RLIMIT_FSIZE": limits.file_size,
+        "RLIMIT_NOFILE": limits.open_files,
+        "RLIMIT_CPU": limits.cpu_seconds,
+        "RLIMIT_CORE": 0,
+    }
+
+
+def namespaces(uid: int | None) -> list[str]:
+    """bwrap arguments for namespaces and privileges; uid is given when root starts the sandbox."""
+    common = [
+        "--unshare-ipc", "--unshare-pid", "--unshare-net", "--unshare-uts", "--unshare-cgroup-try",
+        "--hostname", "sandbox", "--die-with-parent", "--new-session", "--cap-drop", "ALL",
+    ]  # fmt: skip
+    if uid is None:
+        return [*common, "--unshare-user", "--uid", str(STUDENT_UID), "--gid", str(STUDENT_UID)]
+    return [*common, "--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID"]
+
+
+def start(
+    argv: Sequence[str],
+    *,
+    limits: Limits,
+    folder: Path,
+    files: Mapping[str, bytes] | None = None,
+    hidden: Iterable[str] = (),
+    pass_fds: Sequence[int] = (),
+) -> subprocess.Popen[bytes]:
+    """Start a command in a new sandbox; its output goes to the returned process's ``stdout`` pipe.
+
+    ``files`` (names relative to the home) are written into the private home
+    first.  ``folder`` is a private folder of the caller for files in transit.
+    """
+    bwrap = shutil.which("bwrap")
+    if bwrap is None:
+        raise SandboxUnavailable(f"bubblewrap (bwrap) is not installed; {INSTALL}")
+    uid = unused_uid() if os.geteuid() == 0 else None
+    plan = {
+        "uid": uid,
+        "home": HOME,
+        "cwd": WORK,
+        "files": dict(files or {}),
+        "limits": resource_limits(limits, uid),
+        "argv": list(argv),
+        "env": kernel_environment(),
+    }
+    arguments = [*namespaces(uid), *mounts(limits, hidden)]
+    filters = seccomp.program()
+    with (
+        handed_over(marshal.dumps(plan), folder) as plan_file,
+        handed_over(filters or b"", folder) as filter_file,
+        tempfile.TemporaryFile(dir=folder) as argument_file,
+    ):
+        if filters is not None:
+            arguments += ["--seccomp", str(filter_file.fileno())]
+        argument_file.write(b"\0".join(os.fsencode(word) for word in arguments) + b"\0")
+        argument_file.seek(0)
+        enter = Path(__file__).with_name("enter.py").read_text()
+        return subprocess.Popen(
+            [bwrap, "--args", str(argument_file.fileno()), "--", sys.executable, "-I", "-S", "-c", enter],
+            stdin=plan_file,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            pass_fds=(argument_file.fileno(), filter_file.fileno(), *pass_fds),
+            # The first process of a sandbox keeps the environment it was started with, in sight of the others.
+            env={},
+            start_new_session=True,
+        )
+
+
+def handed_over(content: bytes, folder: Path) -> IO[bytes]:
+    """An unnamed file with this content, read from its start."""
+    file = tempfile.TemporaryFile(dir=folder)
+    file.write(content)
+    file.flush()
+    file.seek(0)
+    return file
+
+
+@functools.cache
+def available() -> str | None:
+    """None when a sandbox starts here, else the reason in words, with what to do about it."""
+    if not sys.platform.startswith("linux"):
+        return f"bubblewrap exists for Linux only, this is {sys.platform}"
+    probe = "import sys, importlib.util as util; sys.exit(util.find_spec('ipykernel') is None)"
+    with tempfile.TemporaryDirectory(prefix="autograder-") as folder:
+        try:
+            process = start([sys.executable, "-c", probe], limits=Limits(), folder=Path(folder))
+            output, _ = process.communicate(timeout=60)
+        except SandboxUnavailable as error:
+            return str(error)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            return "a trial sandbox did not finish within 60 s"
+    if process.returncode == 0:
+        return None
+    return explain(output.decode(errors="replace").strip())
+
+
+def explain(output: str) -> str:
+    """The reason why a trial sandbox failed, in words."""
+    if "nknown option" in output:
+        return f"bubblewrap is too old (0.8 or newer is needed): {output.splitlines()[0]}"
+    refused = ("No permissions to creat", "Operation not permitted", "setting up uid map", "ermission denied")
+    if output.startswith("bwrap:") and any(words in output for words in refused):
+        return f"bubblewrap cannot build a sandbox ({output.splitlines()[0]}): {NAMESPACES}"
+    if "ermission denied" in output:
+        return (
+            f"the Python environment {sys.prefix} cannot be read by other users, as whom sandboxed kernels run"
+            f" when root starts them ({output.splitlines()[-1]}): chmod -R a+rX {sys.prefix}"
+        )
+    last = output.splitlines()[-1] if output else "no message"
+    return f"a trial sandbox failed: {last}"

@@ -1,0 +1,264 @@
+"""Runs code in one kernel and keeps what comes back within bounds."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import nbformat
+import zmq
+import zmq.asyncio
+from jupyter_client.manager import AsyncKernelManager
+from nbclient import NotebookClient
+from nbclient.exceptions import CellExecutionComplete
+from nbformat import NotebookNode
+
+from .kernelspec import SandboxKernelSpecs
+from .limits import Limits
+from .messages import MalformedMessage, Message, as_text, decode, output_content
+from .provisioner import SandboxProvisioner
+
+START_SECONDS = 60.0
+INTERRUPT_SECONDS = 3.0  # what a cell gets to end after an interrupt before its kernel is killed
+SETTLE_SECONDS = 2.0  # what the other half of a cell's end may lag behind
+POLL_SECONDS = 0.2
+MESSAGE_OVERHEAD = 200  # bytes: an output costs memory beyond its text
+KEPT_BYTES = 16 << 10  # of the outputs of a cell that passed the limit
+QUEUED_MESSAGES = 8
+MESSAGE_CHARACTERS = 300
+OUT_OF_MEMORY = ("MemoryError", "_ArrayMemoryError")
+
+
+class KernelStartError(RuntimeError):
+    """A kernel could not be started although a sandbox can be had; a fault of this machine, not of the notebook."""
+
+
+@dataclass
+class CellRun:
+    """What happened in one code cell.
+
+    ``status`` is "ok", "error", "timeout", "output_limit", "memory", "died" or
+    "not_run"; ``message`` one sentence for a lecturer, empty when all is well;
+    ``outputs`` the cell's outputs in notebook format, within the limits.
+    """
+
+    status: str
+    message: str = ""
+    outputs: list[NotebookNode] = field(default_factory=list)
+
+
+@dataclass
+class Progress:
+    """State of a running cell; ``stopped`` is (status, message) once it was interrupted."""
+
+    reply: dict[str, Any] | None = None
+    idle: bool = False
+    ended_at: float | None = None
+    streamed: int = 0
+    stopped: tuple[str, str] | None = None
+    kill_at: float = float("inf")
+
+
+class SandboxClient(NotebookClient):
+    """nbclient's bookkeeping of outputs and displays, with our own way of running a cell.
+
+    A client lives as long as one kernel.  ``used`` is what the outputs of the
+    notebook hold so far, in bytes; the caller carries it over to the next
+    client.
+    """
+
+    def __init__(self, nb: NotebookNode, limits: Limits, options: dict[str, Any], used: int = 0) -> None:
+        specs = SandboxKernelSpecs()
+        specs.provisioner_options = {**options, "limits": limits}
+        super().__init__(nb, km=AsyncKernelManager(kernel_spec_manager=specs, kernel_name="python3"))
+        self.limits = limits
+        self.used = used
+        self.lost = False
+
+    @property
+    def provisioner(self) -> SandboxProvisioner:
+        return self.km.provisioner
+
+    async def start(self) -> None:
+        """Start the kernel and wait until it answers; raises KernelStartError."""
+        await self.km.start_kernel()
+        self.kc = self.km.client()
+        self.kc.context.setsockopt(zmq.MAXMSGSIZE, self.limits.message_bytes)
+        self.kc.context.setsockopt(zmq.RCVHWM, QUEUED_MESSAGES)
+        self.kc.start_channels(stdin=False, hb=False, control=False)
+        give_up = time.monotonic() + START_SECONDS
+        answered = heard = False
+        while not (answered and heard):
+            self.kc.kernel_info()
+            for channel, _ in await self._receive(1.0):
+                answered |= channel == "shell"
+                heard |= channel == "iopub"
+            # The first status messages may come before the subscription does: ask again until one is heard.
+            if answered and not heard:
+                heard = any(channel == "iopub" for channel, _ in await self._receive(POLL_SECONDS))
+            if await self.provisioner.poll() is not None or time.monotonic() > give_up:
+                raise KernelStartError(f"the kernel did not start: {self._last_words()}")
+
+    def _last_words(self) -> str:
+        lines = self.provisioner.relay.tail.decode(errors="replace").strip().splitlines()
+        return lines[-1] if lines else "it did not answer"
+
+    def close(self) -> None:
+        """Kill the kernel with everything it started and remove its private folder; never fails halfway."""
+        if self.provisioner is not None:
+            self.provisioner.release()
+        if self.kc is not None:
+            self.kc.stop_channels()
+            self.kc.context.destroy(linger=0)
+        self.km._close_control_socket()
+        self.km.context.destroy(linger=0)
+
+    async def _receive(self, seconds: float) -> list[tuple[str, Message | None]]:
+        """Messages waiting on shell and iopub, as (channel, message); None stands for a malformed one."""
+        sockets = {self.kc.shell_channel.socket: "shell", self.kc.iopub_channel.socket: "iopub"}
+        poller = zmq.asyncio.Poller()
+        for socket in sockets:
+            poller.register(socket, zmq.POLLIN)
+        received: list[tuple[str, Message | None]] = []
+        for socket, _ in await poller.poll(max(0, int(seconds * 1000))):
+            frames = await socket.recv_multipart()
+            try:
+                message = decode(frames, self.kc.session.key)
+            except MalformedMessage:
+                message = None
+            received.append((sockets[socket], message))
+        return received
+
+    async def run_code(self, source: str, cell: NotebookNode, index: int, deadline: float) -> CellRun:
+        """Run source in the kernel, its outputs going to ``cell``; ``deadline`` is on the monotonic clock.
+
+        ``lost`` is True afterwards when the kernel is dead or has to be killed.
+        """
+        cell.outputs = []
+        refused_before = self.provisioner.relay.refused
+        self.clear_before_next_output = False
+        request = self.kc.execute(source, allow_stdin=False, stop_on_error=False)
+        allowed = max(0.0, deadline - time.monotonic())
+        progress = Progress()
+        while not self._finished(progress, self.provisioner.relay.refused > refused_before):
+            now = time.monotonic()
+            if progress.stopped is None and now >= deadline:
+                progress.stopped = ("timeout", f"stopped after {allowed:.0f} s")
+            refused = self.provisioner.relay.refused > refused_before
+            if progress.stopped is None and (refused or progress.streamed > self.limits.output_bytes - self.used):
+                progress.stopped = ("output_limit", self._too_much_output())
+            if progress.stopped is not None and progress.kill_at == float("inf"):
+                progress.kill_at = now + INTERRUPT_SECONDS
+                await self.km.interrupt_kernel()
+            if now >= progress.kill_at:
+                self.lost = True
+                break
+            if await self.provisioner.poll() is not None:
+                self.lost = True
+                progress.stopped = progress.stopped or self.provisioner.cause_of_death()
+                break
+            for channel, message in await self._receive(min(POLL_SECONDS, max(0.0, deadline - now) or POLL_SECONDS)):
+                if message is not None and message.parent == request:
+                    self._take(channel, message, progress, cell, index)
+        return self._result(progress, cell, refused=self.provisioner.relay.refused > refused_before)
+
+    def _finished(self, progress: Progress, refused: bool) -> bool:
+        """Whether the cell ended: both halves of its end came, or the second does not come any more.
+
+        A message that was too long is left out, and it may have been one of the two.
+        """
+        if progress.reply is not None and progress.idle:
+            return True
+        if progress.reply is None and not (progress.idle and refused):
+            progress.ended_at = None
+            return False
+        if progress.ended_at is None:
+            progress.ended_at = time.monotonic()
+        return time.monotonic() > progress.ended_at + SETTLE_SECONDS
+
+    def _take(self, channel: str, message: Message, progress: Progress, cell: NotebookNode, index: int) -> None:
+        if channel == "shell":
+            if message.kind == "execute_reply":
+                progress.reply = message.content
+            return
+        if message.kind == "status":
+            progress.idle = progress.idle or message.content.get("execution_state") == "idle"
+            return
+        progress.streamed += message.size + MESSAGE_OVERHEAD
+        content = output_content(message)
+        if content is None or progress.streamed > self.limits.output_bytes - self.used:
+            return
+        header = {"msg_type": message.kind}
+        try:
+            self.process_message(
+                {**header, "header": header, "parent_header": {"msg_id": message.parent}, "content": content},
+                cell,
+                index,
+            )
+        except (CellExecutionComplete, LookupError, ValueError):
+            return  # an update of a display that is not there any more
+
+    def output(
+        self, outs: list[NotebookNode], msg: dict[str, Any], display_id: str | None, cell_index: int
+    ) -> NotebookNode | None:
+        """Append an output, or lengthen the last one when both are the same stream."""
+        content = msg["content"]
+        last = outs[-1] if outs and not self.clear_before_next_output else None
+        if msg["msg_type"] == "stream" and last is not None and last.get("name") == content["name"]:
+            last["text"] += content["text"]
+            return last
+        return super().output(outs, msg, display_id, cell_index)
+
+    def _too_much_output(self) -> str:
+        return f"stopped: more than {self.limits.output_bytes >> 10} KiB of output"
+
+    def _result(self, progress: Progress, cell: NotebookNode, *, refused: bool) -> CellRun:
+        """The cell's run as told by what stopped it, or else by its reply."""
+        over = refused or progress.streamed > self.limits.output_bytes - self.used
+        if over:
+            cell.outputs = shortened(cell.outputs, KEPT_BYTES)
+            self.used += min(KEPT_BYTES, self.limits.output_bytes - self.used)
+        else:
+            self.used += progress.streamed
+        reply = progress.reply or {}
+        if progress.stopped is not None:
+            return CellRun(*progress.stopped, cell.outputs)
+        if over:
+            return CellRun("output_limit", self._too_much_output(), cell.outputs)
+        if asks_to_exit(reply):
+            self.lost = True
+            return CellRun("died", "ended the kernel (exit)", cell.outputs)
+        if reply.get("status") == "ok":
+            return CellRun("ok", "", cell.outputs)
+        name, value = as_text(reply.get("ename")), as_text(reply.get("evalue"))
+        message = one_line(f"{name}: {value}" if value else name) or "the cell was not completed"
+        return CellRun("memory" if name in OUT_OF_MEMORY else "error", message, cell.outputs)
+
+
+def asks_to_exit(reply: dict[str, Any]) -> bool:
+    """Whether an execute reply carries IPython's request to end the kernel."""
+    payload = reply.get("payload")
+    return isinstance(payload, list) and any(
+        isinstance(entry, dict) and entry.get("source") == "ask_exit" for entry in payload
+    )
+
+
+def one_line(text: str) -> str:
+    """The text on one line, cut to a readable length."""
+    line = " ".join(text.split())
+    return line if len(line) <= MESSAGE_CHARACTERS else line[: MESSAGE_CHARACTERS - 3] + "..."
+
+
+def shortened(outputs: Sequence[NotebookNode], limit: int) -> list[NotebookNode]:
+    """The first outputs that fit into ``limit`` characters; a stream is cut, anything else left out whole."""
+    kept: list[NotebookNode] = []
+    for output in outputs:
+        if output.output_type == "stream":
+            text = output.text[:limit]
+            kept.append(nbformat.v4.new_output("stream", name=output.name, text=text))
+            limit -= len(text)
+        if limit <= 0 or output.output_type != "stream":
+            break
+    return kept

@@ -1,0 +1,41 @@
+"""First step inside the sandbox: put the files in place, take on the limits, become the kernel.
+
+This module is never imported.  Its text is handed to ``python -I -S -c`` under
+bubblewrap, because nothing of this package may be visible in there.  The plan
+arrives on standard input, marshalled by the trusted side, which built it.
+"""
+
+import marshal
+import os
+import resource
+import sys
+
+
+def write_files(home, files):
+    for name, content in files.items():
+        path = os.path.join(home, name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, "wb") as file:
+            file.write(content)
+
+
+def main():
+    plan = marshal.load(sys.stdin.buffer)
+    if plan["uid"] is not None:
+        # Root is exempt from the limit on processes, so the kernel must not be root.
+        os.setgroups([])
+        os.setresgid(plan["uid"], plan["uid"], plan["uid"])
+        os.setresuid(plan["uid"], plan["uid"], plan["uid"])
+    os.umask(0o077)
+    write_files(plan["home"], plan["files"])
+    os.makedirs(plan["cwd"], exist_ok=True)
+    os.chdir(plan["cwd"])
+    for name, value in plan["limits"].items():
+        resource.setrlimit(getattr(resource, name), (value, value))
+    null = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(null, 0)
+    os.close(null)
+    os.execve(plan["argv"][0], plan["argv"], plan["env"])
+
+
+main()

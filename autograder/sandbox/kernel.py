@@ -1,0 +1,35 @@
+"""The kernel's own start-up: ipykernel on sockets that it inherited.
+
+This module is never imported; its text is handed to ``python -c``.  The
+"ports" in the kernel's connection file are descriptors of listening sockets
+that the trusted side opened, so no folder with sockets has to be shared with
+the kernel, and no name in the file system is its to replace.
+"""
+
+import sys
+
+# The work folder must not shadow what the kernel itself imports; IPython puts it back.
+sys.path[:] = [entry for entry in sys.path if entry]
+
+import zmq
+from ipykernel.kernelapp import IPKernelApp
+
+
+class InheritedSocketsApp(IPKernelApp):
+    name = "ipython-kernel"
+
+    def _try_bind_socket(self, s, port):
+        s.setsockopt(zmq.USE_FD, port)
+        s.bind("ipc://kernel-" + str(port))
+        return port
+
+    def init_control(self, context):
+        super().init_control(context)
+        # The debugger's socket would knock for ever at a path that does not exist in here.
+        self.debug_shell_socket.disconnect(self.shell_socket.getsockopt(zmq.LAST_ENDPOINT))
+
+    def init_heartbeat(self):
+        """No heartbeat: the process itself is watched from outside."""
+
+
+InheritedSocketsApp.launch_instance()

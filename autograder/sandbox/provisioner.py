@@ -1,0 +1,244 @@
+"""jupyter_client kernel provisioner that starts the kernel in a sandbox.
+
+Chosen by a kernel spec whose metadata says
+``{"kernel_provisioner": {"provisioner_name": "autograder-sandbox"}}``.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import functools
+import glob
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import psutil
+from jupyter_client.connect import KernelConnectionInfo, port_names
+from jupyter_client.provisioning import LocalProvisioner
+from traitlets import Bool, Instance, Unicode
+from traitlets import List as ListOf
+
+from . import bubblewrap
+from .limits import Limits
+from .relay import Relay, listening_sockets
+from .watch import MemoryWatch
+from .workdir import read_folder
+
+SOCKET_PATH_BYTES = 90  # the system allows 108, or 104 on macOS, file name included
+XCPU_STATUS = 128 + signal.SIGXCPU
+
+
+def private_folder() -> Path:
+    """A new folder that only this user can enter, with a path short enough for sockets."""
+    base = tempfile.gettempdir()
+    return Path(tempfile.mkdtemp(prefix="ag-", dir=base if len(base) < SOCKET_PATH_BYTES - 12 else "/tmp"))
+
+
+@functools.cache
+def font_list() -> dict[str, bytes]:
+    """matplotlib's list of fonts, by its place in the sandbox's home, where this user has one.
+
+    Building it takes half a second in every new home.
+    """
+    home = os.path.expanduser("~")
+    cache = os.environ.get("XDG_CACHE_HOME") or f"{home}/.cache"
+    folder = os.environ.get("MPLCONFIGDIR") or f"{cache}/matplotlib"
+    found = glob.glob(f"{glob.escape(folder)}/fontlist-v*.json")
+    return {f".cache/matplotlib/{os.path.basename(path)}": Path(path).read_bytes() for path in found}
+
+
+class SandboxProvisioner(LocalProvisioner):
+    """Starts a kernel under bubblewrap, relays its messages, watches its memory, and leaves nothing behind.
+
+    With ``sandboxed`` off the same kernel runs as an ordinary local process:
+    only the bounds on messages hold.
+    """
+
+    limits = Instance(Limits, args=())
+    workdir = Unicode("", help="folder whose files are copied into the kernel's private work folder")
+    hidden = ListOf(Unicode(), help="folders that the kernel must not see, wherever they are")
+    sandboxed = Bool(True)
+
+    folder: Path | None = None
+    relay: Relay | None = None
+    watch: MemoryWatch | None = None
+    memory_exceeded = False
+    exit_status: int | None = None
+    left_out: tuple[str, ...] = ()
+
+    async def pre_launch(self, **kwargs: Any) -> dict[str, Any]:
+        manager = self.parent
+        if self.folder is None:
+            self.folder = private_folder()
+        manager.transport = "ipc"
+        manager.connection_file = str(self.folder / "kernel.json")
+        manager.ip = str(self.folder / "k")
+        for number, name in enumerate(port_names, start=1):
+            setattr(manager, name, number)
+        return await super().pre_launch(**kwargs)
+
+    async def launch_kernel(self, cmd: list[str], **kwargs: Any) -> KernelConnectionInfo:
+        """Start the kernel; the command's options after the kernel spec's own are passed on to it."""
+        options = cmd[len(self.kernel_spec.argv) :]
+        front = listening_sockets([self.folder / f"k-{number}" for number, _ in enumerate(port_names, 1)])
+        back_paths = [self.folder / f"s-{number}" for number, _ in enumerate(port_names, 1)]
+        back = listening_sockets(back_paths)
+        try:
+            self.process = self._start([door.fileno() for door in back], options, kwargs.get("env"))
+        finally:
+            for door in back:
+                door.close()
+        self.pid = self.process.pid
+        self.pgid = None if self.sandboxed else self.pid
+        self.memory_exceeded = False
+        self.relay = Relay(
+            dict(zip(front, back_paths)), self.process.stdout.fileno(), self.limits.message_bytes
+        )
+        self.relay.start()
+        if self.sandboxed:
+            self.watch = MemoryWatch(self.pid, bubblewrap.PRIVATE, self.limits.memory, self._too_much_memory)
+            self.watch.start()
+        return self.connection_info
+
+    def _start(
+        self, descriptors: list[int], options: list[str], env: dict[str, str] | None
+    ) -> subprocess.Popen[bytes]:
+        contents, left_out = read_folder(Path(self.workdir), self.limits.disk // 2) if self.workdir else ({}, [])
+        self.left_out = tuple(left_out)
+        connection = self._connection(descriptors)
+        source = Path(__file__).with_name("kernel.py").read_text()
+        command = [sys.executable, "-c", source, "--HistoryManager.hist_file=:memory:", *options]
+        if self.sandboxed:
+            files = {f"work/{name}": content for name, content in contents.items()}
+            files |= {**font_list(), ".kernel.json": connection}
+            return bubblewrap.start(
+                [*command, "-f", f"{bubblewrap.HOME}/.kernel.json"],
+                limits=self.limits,
+                folder=self.folder,
+                files=files,
+                hidden=[*self.hidden, *filter(None, [self.workdir])],
+                pass_fds=descriptors,
+            )
+        work = self.folder / "work"
+        work.mkdir(exist_ok=True)
+        for name, content in contents.items():
+            path = work / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content)
+        own_connection = self.folder / "own-kernel.json"
+        own_connection.write_bytes(connection)
+        return subprocess.Popen(
+            [*command, "-f", str(own_connection)],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            pass_fds=descriptors,
+            env=env,
+            cwd=work,
+            start_new_session=True,
+        )
+
+    def _connection(self, descriptors: list[int]) -> bytes:
+        """The kernel's own connection file: its ports are the descriptors of the sockets it inherits."""
+        info = {
+            "transport": "ipc",
+            "ip": "kernel",
+            "key": self.parent.session.key.decode(),
+            "signature_scheme": self.parent.session.signature_scheme,
+            **dict(zip(port_names, descriptors)),
+        }
+        return json.dumps(info).encode()
+
+    def _too_much_memory(self) -> None:
+        self.memory_exceeded = True
+        self._kill_family()
+
+    def _kill_family(self) -> None:
+        """Kill everything that runs in the sandbox.
+
+        The first process of the PID namespace takes all others with it, and
+        bubblewrap, its parent, ends only after they are gone.
+        """
+        process = self.process
+        if process is None:
+            return
+        try:
+            first = psutil.Process(process.pid).children() if self.sandboxed else []
+            for child in first:
+                child.kill()
+            if not first:
+                os.killpg(process.pid, signal.SIGKILL)
+        except (psutil.Error, ProcessLookupError, PermissionError):
+            process.kill()
+
+    async def poll(self) -> int | None:
+        if self.process is None:
+            return 0
+        status = self.process.poll()
+        if status is not None:
+            self.exit_status = status
+        return status
+
+    async def wait(self) -> int | None:
+        """Wait for the kernel and everything it started to be gone."""
+        while await self.poll() is None:
+            await asyncio.sleep(0.05)
+        self._stop_threads()
+        if self.process is not None:
+            self.process.stdout.close()
+            self.process = None
+        return self.exit_status
+
+    async def kill(self, restart: bool = False) -> None:
+        """Kill the kernel and everything it started."""
+        self._kill_family()
+        for _ in range(50):
+            if self.process is None or self.process.poll() is not None:
+                return
+            await asyncio.sleep(0.05)
+        self.process.kill()
+
+    async def terminate(self, restart: bool = False) -> None:
+        """Same as kill: a student's kernel is not asked."""
+        await self.kill(restart)
+
+    async def send_signal(self, signum: int) -> None:
+        """Signals do not reach into the sandbox, except the one that ends it; interrupts go by message."""
+        if signum in (signal.SIGKILL, signal.SIGTERM):
+            await self.kill()
+
+    async def cleanup(self, restart: bool = False) -> None:
+        self.release()
+
+    def release(self) -> None:
+        """End the relay and the watch, kill what is left, remove the private folder."""
+        self._kill_family()
+        self._stop_threads()
+        if self.process is not None:
+            self.process.wait()
+            self.process.stdout.close()
+            self.process = None
+        if self.folder is not None:
+            shutil.rmtree(self.folder, ignore_errors=True)
+            self.folder = None
+
+    def _stop_threads(self) -> None:
+        if self.watch is not None:
+            self.watch.stop()
+        if self.relay is not None:
+            self.relay.stop()
+
+    def cause_of_death(self) -> tuple[str, str]:
+        """(status, sentence) for a kernel that ended although nobody asked it to."""
+        if self.memory_exceeded:
+            return "memory", f"used more than {self.limits.memory >> 20} MiB of memory and was stopped"
+        if self.exit_status == XCPU_STATUS:
+            return "died", f"used up its {self.limits.cpu_seconds} s of processor time"
+        return "died", "the kernel ended while the cell was running"

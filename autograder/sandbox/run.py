@@ -1,0 +1,162 @@
+"""Runs a whole notebook so that a bad cell costs no more than its own question."""
+
+from __future__ import annotations
+
+import asyncio
+import concurrent.futures
+import copy
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal
+
+import nbformat
+from nbformat import NotebookNode
+
+from .bubblewrap import SandboxUnavailable, available
+from .client import CellRun, SandboxClient
+from .limits import Limits
+
+MAX_RESTARTS = 2
+
+Followup = Callable[[int, NotebookNode, list[NotebookNode]], str | None]
+
+
+@dataclass
+class Run:
+    """What happened in a notebook: one CellRun per code cell and the outputs of its follow-up code, by cell index."""
+
+    cells: dict[int, CellRun] = field(default_factory=dict)
+    followups: dict[int, list[NotebookNode]] = field(default_factory=dict)
+    message: str | None = None
+
+
+@dataclass
+class Session:
+    """One notebook on its way: the kernel it has now and what it may still use."""
+
+    nb: NotebookNode
+    limits: Limits
+    options: dict[str, Any]
+    run: Run = field(default_factory=Run)
+    client: SandboxClient | None = None
+    deadline: float = float("inf")
+    starts: int = 0
+    used: int = 0
+
+    async def start(self) -> None:
+        self.client = SandboxClient(self.nb, self.limits, self.options, self.used)
+        self.starts += 1
+        await self.client.start()
+        self.deadline = min(self.deadline, time.monotonic() + self.limits.notebook_seconds)
+
+    def stop(self) -> None:
+        if self.client is not None:
+            self.used = self.client.used
+            self.client.close()
+            self.client = None
+
+    async def execute(self, source: str, index: int) -> CellRun:
+        """Run code in the present kernel, with its outputs in a cell of its own at the notebook's end."""
+        cell = nbformat.v4.new_code_cell(source)
+        self.nb.cells.append(cell)
+        by_notebook = self.deadline < time.monotonic() + self.limits.cell_seconds
+        deadline = min(self.deadline, time.monotonic() + self.limits.cell_seconds)
+        result = await self.client.run_code(source, cell, len(self.nb.cells) - 1, deadline)
+        if result.status == "timeout" and by_notebook:
+            result.message = f"stopped: the notebook's {self.limits.notebook_seconds:g} s were used up"
+        return result
+
+    async def replay(self, index: int) -> None:
+        """Bring a fresh kernel to the state before cell ``index``, without the cells that did harm."""
+        for earlier, result in self.run.cells.items():
+            if earlier >= index or result.status not in ("ok", "error"):
+                continue
+            if self.client.lost or time.monotonic() >= self.deadline:
+                return
+            self.client.used = 0
+            await self.execute(self.nb.cells[earlier].source, earlier)
+        self.client.used = self.used
+
+
+async def run_cells(session: Session, followup: Followup | None) -> None:
+    """Run every code cell of the session's notebook, in a new kernel where the old one was lost."""
+    code_cells = [index for index, cell in enumerate(session.nb.cells) if cell.cell_type == "code"]
+    run = session.run
+    for index in code_cells:
+        source = session.nb.cells[index].source
+        if not source.strip():
+            run.cells[index] = CellRun("ok")
+            continue
+        while session.client is None or session.client.lost:
+            session.stop()
+            if session.starts > MAX_RESTARTS:
+                run.message = f"the kernel was lost {session.starts} times, the rest of the notebook was not run"
+                break
+            await session.start()
+            await session.replay(index)
+        if run.message is None and time.monotonic() >= session.deadline:
+            run.message = f"notebook stopped after {session.limits.notebook_seconds:g} s"
+        if run.message is not None:
+            run.cells[index] = CellRun("not_run", run.message)
+            continue
+        result = run.cells[index] = await session.execute(source, index)
+        code = followup(index, session.nb.cells[index], result.outputs) if followup is not None else None
+        if code is not None and not session.client.lost:
+            probed = await session.execute(code, index)
+            run.followups[index] = probed.outputs
+            if probed.status != "ok" and result.status == "ok":
+                result.status, result.message = probed.status, probed.message
+
+
+async def run_session(session: Session, followup: Followup | None) -> Run:
+    try:
+        await run_cells(session, followup)
+    finally:
+        session.stop()
+    return session.run
+
+
+def run_notebook(
+    nb: NotebookNode,
+    *,
+    workdir: Path,
+    limits: Limits = Limits(),
+    mode: Literal["bwrap", "none"] = "bwrap",
+    followup: Followup | None = None,
+    hidden: tuple[Path, ...] = (),
+) -> Run:
+    """Run a notebook in a sandbox and return what came of each code cell; the notebook itself is not changed.
+
+    ``workdir`` holds the notebook's own files; they are copied into the
+    kernel's private work folder.  ``followup(index, cell, outputs)`` is called
+    here, in the trusted process, after each cell; code that it returns is run
+    in the same kernel under the same limits, its outputs are kept apart, and
+    trouble in it becomes the status of its cell.  ``hidden`` names further
+    folders that a kernel must not see.  Works from any thread, also from
+    several at a time.
+
+    mode="none" runs an ordinary local kernel: the bounds on time and output
+    hold, nothing else does.
+
+    Raises SandboxUnavailable when there is no sandbox to be had, and
+    KernelStartError when a kernel does not start in it.
+    """
+    if mode not in ("bwrap", "none"):
+        raise ValueError(f"unknown mode {mode!r}: 'bwrap' or 'none'")
+    reason = available() if mode == "bwrap" else None
+    if reason is not None:
+        raise SandboxUnavailable(reason)
+    options = {
+        "workdir": str(workdir),
+        "sandboxed": mode == "bwrap",
+        "hidden": [str(folder) for folder in hidden],
+    }
+    session = Session(copy.deepcopy(nb), limits, options)
+    try:
+        asyncio.get_running_loop()
+    except RuntimeError:
+        return asyncio.run(run_session(session, followup))
+    with concurrent.futures.ThreadPoolExecutor(1) as thread:
+        return thread.submit(asyncio.run, run_session(session, followup)).result()
