@@ -81,6 +81,29 @@ class Chain:
         """Number n of joint variables."""
         return self.coupling.shape[1]
 
+    def row_matrix(self, row: int, variable: float) -> np.ndarray:
+        """The 4x4 transform of one row (counted from 0) for a value of its variable."""
+        slide, turn = self.fixed[row], variable
+        if self.prismatic[row]:
+            slide, turn = turn, slide
+        c, s = np.cos(turn), np.sin(turn)
+        ca, sa = self.cos_alpha[row], self.sin_alpha[row]
+        return np.array(
+            [
+                [c, -s, 0.0, self.a[row]],
+                [s * ca, c * ca, -sa, -slide * sa],
+                [s * sa, c * sa, ca, slide * ca],
+                [0.0, 0.0, 0.0, 1.0],
+            ]
+        )
+
+    def tail(self, row: int) -> np.ndarray:
+        """What follows a row (counted from 0) up to the tool, 4x4, for constant rows."""
+        result = np.eye(4)
+        for i in range(row + 1, len(self.a)):
+            result = result @ self.row_matrix(i, self.offset[i])
+        return result @ self.tool
+
     def forward(self, q) -> np.ndarray:
         """Poses of the tool for joint values q.
 
