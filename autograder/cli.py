@@ -1,0 +1,209 @@
+"""The `autograder` command. What a command needs is imported when it runs: help must come at once."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+
+LIMITS = {
+    "memory": ("BYTES", int, "memory for one notebook, all its processes together (default 1073741824, 1 GiB)"),
+    "processes": ("N", int, "processes and threads of one notebook (default 128)"),
+    "file-size": ("BYTES", int, "size a file may grow to (default 67108864, 64 MiB)"),
+    "cpu-seconds": ("S", int, "processor time (default 120)"),
+    "cell-seconds": ("S", float, "time for one cell (default 30)"),
+    "notebook-seconds": ("S", float, "time for one notebook (default 120)"),
+    "output-bytes": ("BYTES", int, "output of one notebook (default 1048576, 1 MiB)"),
+}
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run the command line `argv`; returns the exit code: 0 done, 1 something failed, 2 the command made no sense."""
+    options = _parser().parse_args(argv)
+    try:
+        return options.run(options)
+    except KeyboardInterrupt:
+        print("interrupted: what was graded before is in the gradebook", file=sys.stderr)
+        return 130
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except Exception as error:
+        from autograder.grading.course import CourseError
+
+        if not isinstance(error, CourseError):
+            raise
+        print(f"autograder: {error}", file=sys.stderr)
+        return 2
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="autograder",
+        description="Releases exercises, grades what students hand in, writes feedback.",
+        epilog="example: autograder release && autograder grade scara && autograder report scara",
+    )
+    common = argparse.ArgumentParser(add_help=False)
+    common.add_argument("--course", metavar="DIR", help="course folder (default: the nearest one with nbgrader_config.py)")
+    common.add_argument("--verbose", action="store_true", help="show nbgrader's log")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+
+    def command(name: str, run, help: str, example: str) -> argparse.ArgumentParser:
+        formatter = argparse.RawDescriptionHelpFormatter
+        added = commands.add_parser(
+            name, help=help, description=help, epilog=f"example: {example}", parents=[common], formatter_class=formatter
+        )
+        added.set_defaults(run=run)
+        return added
+
+    release = command("release", _release, "Make the students' notebooks from the solutions.", "autograder release scara")
+    release.add_argument("exercise", nargs="*", help="exercises to release (default: all)")
+
+    grade = command(
+        "grade", _grade, "Grade the submissions in submitted/*/EXERCISE.", "autograder grade scara --jobs 4 --cell-seconds 60"
+    )
+    grade.add_argument("exercise")
+    grade.add_argument("--student", action="append", default=[], metavar="ID", help="only this student; may be repeated")
+    grade.add_argument("--force", action="store_true", help="also grade what has not changed since it was graded")
+    grade.add_argument("--jobs", type=_positive, metavar="N", help="notebooks that run at the same time (default: one per core)")
+    grade.add_argument("--json", action="store_true", help="print one JSON object per submission instead of the table")
+    sandbox = grade.add_argument_group("sandbox")
+    sandbox.add_argument("--sandbox", choices=("bwrap", "none"), help="'none' runs students' code unprotected, as you")
+    for name, (metavar, kind, help) in LIMITS.items():
+        sandbox.add_argument(f"--{name}", type=kind, metavar=metavar, help=help)
+
+    feedback = command("feedback", _feedback, "Write the feedback pages of all graded submissions.", "autograder feedback scara")
+    feedback.add_argument("exercise")
+
+    report = command(
+        "report", _report, "Show points and answer notes per question.", "autograder report scara --to build/scara.csv"
+    )
+    report.add_argument("exercise")
+    report.add_argument("--to", metavar="FILE", help="also write the counts as CSV")
+
+    export = command("export", _export, "Write grades and notes as CSV.", "autograder export --exercise scara --to grades.csv")
+    export.add_argument("--exercise", action="append", default=[], metavar="NAME", help="only this exercise; may be repeated")
+    export.add_argument("--to", metavar="FILE", default="grades.csv", help="file to write (default: grades.csv)")
+
+    bundle = command("bundle", _bundle, "Write the zip that students get.", "autograder bundle --to build/robots.zip")
+    bundle.add_argument("--to", metavar="FILE", default="robots.zip", help="file to write (default: robots.zip)")
+
+    command("doctor", _doctor, "Say what this machine lacks for grading, and how to get it.", "autograder doctor")
+    return parser
+
+
+def _positive(text: str) -> int:
+    if (number := int(text)) < 1:
+        raise argparse.ArgumentTypeError("must be at least 1")
+    return number
+
+
+def _course(options, config=None):
+    from autograder.grading.course import find_root, open_course
+
+    return open_course(find_root(options.course), config, options.verbose)
+
+
+def _release(options) -> int:
+    from autograder.grading.release import release
+
+    course = _course(options)
+    for exercise in options.exercise or course.exercises():
+        print(release(course, exercise))
+    return 0
+
+
+def _grade(options) -> int:
+    from traitlets.config import Config
+
+    from autograder.grading.pipeline import grade
+    from autograder.grading.table import class_table, progress_bar, summary
+
+    given = {name.replace("-", "_"): getattr(options, name.replace("-", "_")) for name in LIMITS} | {"mode": options.sandbox}
+    course = _course(options, Config(SandboxExecute={name: value for name, value in given.items() if value is not None}))
+    course.choose(options.exercise)
+    students = course.chosen_students(options.exercise, options.student)
+    if options.sandbox == "none":
+        print("warning: no sandbox; students' code runs with your rights", file=sys.stderr)
+    with progress_bar(options.exercise, len(students)) as progress:
+        results = grade(course, options.exercise, students, options.jobs or os.cpu_count() or 1, options.force, progress)
+    if options.json:
+        for result in results:
+            print(json.dumps(result.as_json()))
+    else:
+        class_table(results)
+        summary(course, results)
+    return int(any(result.status == "failed" for result in results))
+
+
+def _feedback(options) -> int:
+    from autograder.grading.converters import FeedbackPages
+    from autograder.grading.course import CourseError, convert
+
+    course = _course(options)
+    course.choose(options.exercise)
+    pages = FeedbackPages(coursedir=course.app.coursedir, parent=course.app)
+    pages.force = True
+    convert(pages)
+    written = sorted(course.step("feedback", "*", options.exercise).parent.parent.glob(f"*/{options.exercise}/*.html"))
+    if not written:
+        raise CourseError(f"nothing was graded for {options.exercise} yet; run: autograder grade {options.exercise}")
+    print(*written, sep="\n")
+    return 0
+
+
+def _report(options) -> int:
+    from autograder.grading.report import question_reports, write_csv
+    from autograder.grading.table import report_table
+
+    reports = question_reports(_course(options), options.exercise)
+    report_table(reports)
+    if options.to:
+        write_csv(reports, options.to)
+    return 0
+
+
+def _export(options) -> int:
+    from nbgrader.api import Gradebook
+    from traitlets.config import Config
+
+    from autograder.grading.export import GradesAndNotes
+
+    target = os.path.abspath(options.to)
+    course = _course(options, Config(ExportPlugin={"to": target, "assignment": options.exercise}))
+    for exercise in options.exercise:
+        course.choose(exercise)
+    with Gradebook(course.app.coursedir.db_url, course.app.coursedir.course_id) as gradebook:
+        GradesAndNotes(parent=course.app).export(gradebook)
+    print(target)
+    return 0
+
+
+def _bundle(options) -> int:
+    from pathlib import Path
+
+    from autograder.grading.bundle import write_bundle
+    from autograder.grading.course import find_root
+
+    names = write_bundle(find_root(options.course), Path(options.to))
+    print(f"{options.to}: {len(names)} files")
+    return 0
+
+
+def _doctor(options) -> int:
+    from pathlib import Path
+
+    from autograder.grading.doctor import examine
+
+    missing = False
+    for finding in examine(Path(options.course or ".").resolve()):
+        print(f"{'ok     ' if finding.ok else 'missing'}  {finding.what}: {finding.found}")
+        if not finding.ok and finding.cure:
+            print(f"         {finding.cure}")
+        missing |= not finding.ok
+    return int(missing)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,77 @@
+"""The zip that students get: lectures, exercises and the kit, and nothing of the instructor's."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from pathlib import Path
+
+from .course import CourseError
+
+FOLDERS = ("course", "exercises")
+_LEFT_OUT = {"__pycache__", ".ipynb_checkpoints", ".pytest_cache"}
+_MARKS = ("BEGIN SOLUTION", "END SOLUTION", "BEGIN HIDDEN TESTS")
+_EPOCH = (1980, 1, 1, 0, 0, 0)
+
+README = """\
+# Modified Denavit-Hartenberg robots: lectures and exercises
+
+You need Python 3.11 or newer. In this folder:
+
+    python3 -m venv .venv
+    .venv/bin/pip install -r course/requirements.txt ./course
+    .venv/bin/jupyter lab
+
+(On Windows: `.venv\\\\Scripts\\\\pip` and `.venv\\\\Scripts\\\\jupyter`.)
+
+* `course/` holds the lecture notebooks, in the order of the slides.
+* `exercises/` holds one folder per exercise. Fill in the answer cells, run everything from top to bottom, and
+  hand in the notebook under its own name. `check(...)` tells you whether your answer has the right form and
+  `hint(...)` helps you on; the points are given later, by the instructor.
+"""
+
+
+def write_bundle(root: Path, target: Path) -> list[str]:
+    """Write the zip `target` from the course in `root`; returns the names inside.
+
+    Raises
+    ------
+    CourseError
+        If there is nothing to hand out, or a file would give a solution away; nothing is written then.
+    """
+    files = {f"{folder}/{path.relative_to(root / folder).as_posix()}": path for folder in FOLDERS for path in _files(root / folder)}
+    if not any(name.startswith("exercises/") and name.endswith(".ipynb") for name in files):
+        raise CourseError("there are no exercises to hand out; run: autograder release")
+    for name, path in files.items():
+        if path.suffix == ".ipynb":
+            _refuse_leak(name, path)
+    top = target.stem
+    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in {"README.md": README.encode(), **{name: path.read_bytes() for name, path in files.items()}}.items():
+            archive.writestr(zipfile.ZipInfo(f"{top}/{name}", _EPOCH), content, zipfile.ZIP_DEFLATED)
+    return ["README.md", *files]
+
+
+def _files(folder: Path) -> list[Path]:
+    return [
+        path
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+        and not path.is_symlink()
+        and not any(part in _LEFT_OUT or part.endswith(".egg-info") for part in path.relative_to(folder).parts)
+    ]
+
+
+def _refuse_leak(name: str, path: Path) -> None:
+    """`CourseError` if an exercise is not as it was released, or a lecture holds a solution's marks."""
+    from nbformat import from_dict
+    from nbgrader.utils import compute_checksum, is_solution
+
+    notebook = json.loads(path.read_text(encoding="utf-8"))
+    for cell in notebook["cells"]:
+        source = "".join(cell["source"])
+        if any(mark in source for mark in _MARKS):
+            raise CourseError(f"{name} holds a solution; run: autograder release")
+        cell = from_dict({**cell, "source": source})
+        if is_solution(cell) and cell.metadata.nbgrader.get("checksum") != compute_checksum(cell):
+            raise CourseError(f"{name}: cell {cell.metadata.nbgrader.grade_id} is not as it was released; run: autograder release")

@@ -1,0 +1,114 @@
+"""A course folder: where it is, what it holds, and nbgrader opened on it."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+from pathlib import Path
+
+from nbgrader.apps import NbGrader
+from nbgrader.converters.base import BaseConverter, NbGraderException
+from traitlets.config import Config
+
+from .converters import student_names
+from .host import prepare
+
+CONFIG = "nbgrader_config.py"
+
+
+class CourseError(Exception):
+    """The command cannot do what was asked; the message is for the person who typed it."""
+
+
+def find_root(given: str | None) -> Path:
+    """The course root: `given`, or the nearest folder at or above the current one with nbgrader_config.py."""
+    if given is not None:
+        root = Path(given).resolve()
+        if not (root / CONFIG).is_file():
+            raise CourseError(f"{root} is not a course folder: it has no {CONFIG}")
+        return root
+    here = Path.cwd()
+    for root in (here, *here.parents):
+        if (root / CONFIG).is_file():
+            return root
+    raise CourseError(f"neither {here} nor a folder above it has a {CONFIG}; go to the course folder or say --course DIR")
+
+
+@dataclass(frozen=True)
+class Course:
+    """nbgrader's application, configured by the course's own file, and the folders it works on."""
+
+    root: Path
+    app: NbGrader
+
+    def step(self, name: str, student: str = ".", exercise: str = "") -> Path:
+        """Folder of a step: ``source``, ``release``, ``submitted``, ``autograded`` or ``feedback``."""
+        directory = getattr(self.app.coursedir, f"{name}_directory")
+        return Path(self.app.coursedir.format_path(directory, student, exercise))
+
+    def exercises(self) -> list[str]:
+        """Exercises that have a solution notebook."""
+        return sorted({path.parent.name for path in self.step("source").glob("*/*.ipynb")})
+
+    def choose(self, exercise: str) -> None:
+        """Work on `exercise`; `CourseError` lists what exists if it does not."""
+        known = self.exercises()
+        if exercise not in known:
+            raise CourseError(f"there is no exercise {exercise!r}; there are: {', '.join(known) or 'none'}")
+        self.app.coursedir.assignment_id = exercise
+
+    def students(self, exercise: str) -> list[str]:
+        """Students with a folder for `exercise` among the submissions."""
+        submitted = self.step("submitted")
+        return [name for name in student_names(submitted) if self.step("submitted", name, exercise).is_dir()]
+
+    def chosen_students(self, exercise: str, wanted: list[str]) -> list[str]:
+        """`wanted`, or everybody; `CourseError` lists who handed in if one of them did not."""
+        everybody = self.students(exercise)
+        for name in wanted:
+            if name not in everybody:
+                raise CourseError(f"{name!r} handed in nothing for {exercise}; handed in: {', '.join(everybody) or 'nobody'}")
+        if not everybody:
+            raise CourseError(f"nobody handed in anything: {self.step('submitted')}/*/{exercise} is empty")
+        return wanted or everybody
+
+
+def open_course(root: Path, config: Config | None = None, verbose: bool = False) -> Course:
+    """nbgrader on the course in `root`; `config` comes on top of the course's own configuration."""
+    prepare()
+    app = NbGrader()
+    app.load_cwd_config = False
+    app.log_level = logging.INFO if verbose else logging.ERROR
+    app.initialize([], root=str(root))
+    for handler in app.log.handlers if not verbose else ():
+        handler.setLevel(logging.CRITICAL + 1)
+    if config:
+        app.update_config(config)
+    return Course(root, app)
+
+
+def convert(converter: BaseConverter) -> None:
+    """Run a converter of nbgrader; `CourseError` with its reason if it fails."""
+    kept = _Kept()
+    converter.log.addHandler(kept)
+    try:
+        converter.start()
+    except NbGraderException as error:
+        raise CourseError(kept.reason() or str(error)) from None
+    finally:
+        converter.log.removeHandler(kept)
+
+
+class _Kept(logging.Handler):
+    """Keeps what nbgrader logs as errors: the exceptions it raises do not say what went wrong."""
+
+    def __init__(self) -> None:
+        super().__init__(logging.ERROR)
+        self.messages: list[str] = []
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self.messages.append(record.getMessage().strip())
+
+    def reason(self) -> str | None:
+        with_traceback = [message for message in self.messages if message.startswith("Traceback")]
+        return next((message.splitlines()[-1] for message in with_traceback + self.messages), None)

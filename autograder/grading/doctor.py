@@ -1,0 +1,98 @@
+"""Says what this machine lacks for grading, and how to get it."""
+
+from __future__ import annotations
+
+import re
+import sqlite3
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+
+PYTHON = (3, 11)
+SETUP = "run: make setup"
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing that was looked at; `cure` says how to get it where it is not ok."""
+
+    what: str
+    ok: bool
+    found: str
+    cure: str = ""
+
+
+def examine(root: Path) -> Iterator[Finding]:
+    """Everything that grading the course in `root` needs, one finding each."""
+    version = ".".join(map(str, sys.version_info[:3]))
+    yield Finding("Python", sys.version_info >= PYTHON, version, "install Python 3.11 or newer")
+    yield from _packages(root)
+    yield _alembic()
+    yield _kernel()
+    yield _sandbox()
+    yield _gradebook(root)
+
+
+def _packages(root: Path) -> Iterator[Finding]:
+    wrong = []
+    pins = dict(_pins(root / "requirements.txt"))
+    for name, pin in pins.items():
+        try:
+            installed = metadata.version(name)
+        except metadata.PackageNotFoundError:
+            installed = "missing"
+        if installed != pin:
+            wrong.append(f"{name} {installed}, pinned {pin}")
+    found = "; ".join(wrong) or f"{len(pins)} as pinned"
+    yield Finding("packages", not wrong, found, SETUP)
+    for name in ("autograder", "dhkit"):
+        try:
+            yield Finding(name, True, metadata.version(name))
+        except metadata.PackageNotFoundError:
+            yield Finding(name, False, "not installed", SETUP)
+
+
+def _pins(path: Path) -> Iterator[tuple[str, str]]:
+    """Names and versions of a requirements file and of the files it names."""
+    for line in path.read_text(encoding="utf-8").splitlines() if path.is_file() else ():
+        if found := re.match(r"-r\s+(\S+)", line):
+            yield from _pins(path.parent / found[1])
+        elif found := re.match(r"([A-Za-z0-9_.-]+)==(\S+)", line):
+            yield found[1], found[2]
+
+
+def _alembic() -> Finding:
+    path = Path(sys.executable).parent / "alembic"
+    return Finding("alembic", path.is_file(), str(path) if path.is_file() else "missing", f"nbgrader makes gradebooks with it; {SETUP}")
+
+
+def _kernel() -> Finding:
+    try:
+        return Finding("kernel", True, f"ipykernel {metadata.version('ipykernel')}")
+    except metadata.PackageNotFoundError:
+        return Finding("kernel", False, "ipykernel is missing", SETUP)
+
+
+def _sandbox() -> Finding:
+    from autograder.sandbox import available
+
+    reason = available()
+    return Finding("sandbox", reason is None, reason or "bubblewrap works", "or grade with --sandbox none, if you trust every submission")
+
+
+def _gradebook(root: Path) -> Finding:
+    path = root / "gradebook.db"
+    if not path.exists():
+        return Finding("gradebook", True, "none yet; autograder release makes it")
+    try:
+        connection = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
+        try:
+            (count,) = connection.execute("select count(*) from submitted_assignment").fetchone()
+            (state,) = connection.execute("pragma quick_check").fetchone()
+        finally:
+            connection.close()
+    except sqlite3.Error as error:
+        return Finding("gradebook", False, f"{path}: {error}", "restore it from a copy, or move it away and release again")
+    return Finding("gradebook", state == "ok", f"{count} submissions", "restore it from a copy, or move it away and release again")

@@ -1,0 +1,142 @@
+"""Runs a restored notebook in the sandbox and gathers, for every question, what the judge needs to know."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import shutil
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from nbformat.notebooknode import NotebookNode
+
+from autograder import questions
+from autograder.judge import MIME, Evidence, Variant
+from autograder.sandbox import CellRun, Limits, run_notebook
+
+from .inert import inert_outputs
+from .reading import MAX_FOLDER_BYTES, plain_files
+from .restore import answer_id, grade_id, is_check, question_id
+
+
+@dataclass(frozen=True)
+class Execution:
+    """What one run of one submission left behind.
+
+    Attributes
+    ----------
+    fingerprint : str
+        Which submission it was (see `reading.fingerprint`).
+    outputs : dict of int to list
+        Inert outputs of each code cell, by its index in the restored notebook.
+    evidence : dict of str to Evidence
+        By the grade id of the check cell.
+    message : str or None
+        What went wrong with the run as a whole.
+    """
+
+    fingerprint: str
+    outputs: dict[int, list]
+    evidence: dict[str, Evidence]
+    message: str | None = None
+
+    def __deepcopy__(self, memo: dict) -> Execution:
+        # nbconvert deep-copies its resources; a bundle that a student nested a thousand times must not go through that.
+        return self
+
+
+def execute(
+    nb: NotebookNode, folders: Iterable[Path], student: str, limits: Limits, mode: str, hidden: tuple[Path, ...] = ()
+) -> Execution:
+    """Run the restored notebook `nb` of `student`.
+
+    Parameters
+    ----------
+    folders : iterable of Path
+        Where the notebook's own files come from; a later folder overrides an earlier one.
+    mode : str
+        ``"bwrap"`` or ``"none"``.
+    hidden : tuple of Path
+        Folders of the host that the sandbox must not show, the course's own above all.
+
+    Raises
+    ------
+    autograder.sandbox.SandboxUnavailable
+        If the sandbox cannot be had.
+    """
+    stamp = nb.metadata.autograder.get("submission", "")
+    if reason := nb.metadata.autograder.get("unreadable"):
+        checks = (grade_id(cell) for cell in nb.cells if is_check(cell))
+        return Execution(stamp, {}, {name: Evidence(None, None, reason, "unreadable") for name in checks})
+    sent: dict[int, list] = {}
+
+    def probe(index: int, cell: NotebookNode, outputs: list) -> str | None:
+        arguments = _arguments(cell, student, stamp, outputs)
+        if arguments is None:
+            return None
+        sent[index] = arguments
+        call = f"answer_probes({question_id(grade_id(cell))!r}, {json.dumps(arguments)!r})"
+        return f"from dhkit.check import answer_probes\n{call}"
+
+    with TemporaryDirectory(prefix="autograder-") as work:
+        copy_plain_files(folders, Path(work))
+        run = run_notebook(nb, workdir=Path(work), limits=limits, mode=mode, followup=probe, hidden=hidden)
+    counts = {index: count for count, index in enumerate(sorted(run.cells), 1)}
+    outputs = {index: inert_outputs(cell.outputs, counts[index]) for index, cell in run.cells.items()}
+    evidence = {grade_id(nb.cells[index]): _evidence(nb, index, run, sent) for index in run.cells if is_check(nb.cells[index])}
+    return Execution(stamp, outputs, evidence, run.message)
+
+
+def copy_plain_files(folders: Iterable[Path], destination: Path) -> None:
+    """Copy the regular files of `folders`, notebooks excepted, up to `MAX_FOLDER_BYTES` for each folder."""
+    for folder in folders:
+        left = MAX_FOLDER_BYTES
+        for path in plain_files(folder):
+            left -= path.stat().st_size
+            if path.suffix != ".ipynb" and left >= 0:
+                target = destination / path.relative_to(folder)
+                target.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copyfile(path, target, follow_symlinks=False)
+
+
+def _arguments(cell: NotebookNode, student: str, stamp: str, outputs: list) -> list | None:
+    """Arguments to try a student's function with, None if the cell handed in no function."""
+    if not is_check(cell):
+        return None
+    bundle = _last_bundle(outputs)
+    answer = bundle.get("answer") if isinstance(bundle, dict) else None
+    if not isinstance(answer, dict) or "function" not in answer:
+        return None
+    question = questions.find(question_id(grade_id(cell)))
+    # The seed follows from the submission: grading it again, here or with nbgrader, asks the same things.
+    seed = int.from_bytes(hashlib.sha256(f"{stamp} {question.id}".encode()).digest()[:8])
+    return question.probes(Variant(student), seed)
+
+
+def _evidence(nb: NotebookNode, index: int, run, sent: dict[int, list]) -> Evidence:
+    trouble = _first_trouble(nb, index, run)
+    probes = (sent[index], _last_bundle(run.followups.get(index, []))) if index in sent else None
+    return Evidence(_last_bundle(run.cells[index].outputs), probes, trouble and trouble.message, trouble.status if trouble else "ok")
+
+
+def _first_trouble(nb: NotebookNode, index: int, run) -> CellRun | None:
+    """The first cell of a question that did not end well: an answer that looped explains a check without a name."""
+    start = index
+    while start > 0 and grade_id(nb.cells[start]) != answer_id(grade_id(nb.cells[index])):
+        start -= 1
+        if is_check(nb.cells[start]):
+            start = index
+            break
+    question = [run.cells[i] for i in range(start, index + 1) if i in run.cells]
+    return next((cell for cell in question if cell.status != "ok"), None)
+
+
+def _last_bundle(outputs: list) -> object | None:
+    """The JSON value displayed last under `MIME`."""
+    for output in reversed(outputs):
+        data = output.get("data")
+        if isinstance(data, dict) and MIME in data:
+            return data[MIME]
+    return None

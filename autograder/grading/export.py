@@ -1,0 +1,70 @@
+"""Grades and answer notes as CSV, for ``nbgrader export`` and ``autograder export``."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterator
+
+from nbgrader.api import Assignment, Gradebook, MissingEntry, Student
+from nbgrader.plugins import ExportPlugin
+
+from .points import note_of
+from .restore import answer_id, question_id
+
+_ABOUT = ("assignment", "duedate", "timestamp", "student_id", "last_name", "first_name", "email")
+_SCORES = ("raw_score", "late_submission_penalty", "score", "max_score")
+
+
+class GradesAndNotes(ExportPlugin):
+    """nbgrader's own columns, then the notes in one column and the points of each question."""
+
+    def export(self, gradebook: Gradebook) -> None:
+        wanted = set(map(str, self.assignment))
+        students = set(map(str, self.student))
+        assignments = [found for found in gradebook.assignments if not wanted or found.name in wanted]
+        checks = [cell.name for found in assignments for book in found.notebooks for cell in book.grade_cells]
+        columns = [*_ABOUT, *_SCORES, "notes", *(question_id(check) for check in sorted(checks))]
+        target = self.to or "grades.csv"
+        self.log.info("Exporting grades to %s", target)
+        with open(target, "w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, columns, restval="")
+            writer.writeheader()
+            for assignment in assignments:
+                for student in gradebook.students:
+                    if not students or student.id in students:
+                        writer.writerow({key: _cell(value) for key, value in _row(gradebook, assignment, student).items()})
+
+
+def _row(gradebook: Gradebook, assignment: Assignment, student: Student) -> dict:
+    row = {key: getattr(student, key) for key in ("last_name", "first_name", "email")}
+    row |= {"assignment": assignment.name, "duedate": assignment.duedate, "student_id": student.id}
+    try:
+        submission = gradebook.find_submission(assignment.name, student.id)
+    except MissingEntry:
+        return row | {"raw_score": 0.0, "late_submission_penalty": 0.0, "score": 0.0, "max_score": assignment.max_score}
+    penalty = submission.late_submission_penalty
+    row |= {"timestamp": submission.timestamp, "raw_score": submission.score, "late_submission_penalty": penalty}
+    row |= {"score": max(0.0, submission.score - penalty), "max_score": assignment.max_score}
+    notes = []
+    for check, score, _, note in results(submission):
+        row[question_id(check)] = score
+        if note not in (None, "right"):
+            notes.append(f"{question_id(check)}: {note}")
+    return row | {"notes": "; ".join(notes)}
+
+
+def results(submission) -> Iterator[tuple[str, float, float, str | None]]:
+    """Grade id, points, greatest points and answer note of each graded cell of a submitted assignment."""
+    for notebook in submission.notebooks:
+        notes = {found.name: note_of(found.auto_comment) for found in notebook.comments}
+        for grade in sorted(notebook.grades, key=lambda grade: grade.name):
+            yield grade.name, grade.score or 0.0, grade.max_score, notes.get(answer_id(grade.name))
+
+
+def _cell(value: object) -> object:
+    """`value` for a spreadsheet: a text that a spreadsheet would take for a formula gets an apostrophe."""
+    if value is None:
+        return ""
+    if isinstance(value, str) and value[:1] in ("=", "+", "-", "@", "\t", "\r"):
+        return f"'{value}"
+    return value

@@ -1,0 +1,31 @@
+"""What a process that runs nbgrader needs before it does; nbgrader_config.py calls `prepare`."""
+
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from pathlib import Path
+
+from sqlalchemy.exc import SAWarning
+
+
+def prepare() -> None:
+    """Make nbgrader work without an activated environment, and grade with `SubmissionAutograde`.
+
+    A new gradebook starts a bare ``alembic`` found on PATH, so the interpreter's own folder must stand there first.
+    Calling it again changes nothing.
+    """
+    scripts = str(Path(sys.executable).parent)
+    if os.environ.get("PATH", "").split(os.pathsep)[0] != scripts:
+        os.environ["PATH"] = os.pathsep.join(filter(None, (scripts, os.environ.get("PATH"))))
+
+    # nbgrader 0.9.6 builds its rows in an order that SQLAlchemy 2 remarks upon; what is stored is right.
+    warnings.filterwarnings("ignore", category=SAWarning, message="Object of type .* not in session")
+
+    import nbgrader.apps.api
+    import nbgrader.apps.autogradeapp
+
+    from .converters import SubmissionAutograde
+
+    nbgrader.apps.api.Autograde = nbgrader.apps.autogradeapp.Autograde = SubmissionAutograde

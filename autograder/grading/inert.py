@@ -1,0 +1,111 @@
+"""Makes what a student's notebook shows harmless: in a browser, in Markdown, in a terminal."""
+
+from __future__ import annotations
+
+import html
+import re
+from collections.abc import Iterable
+
+import bleach
+from jinja2 import pass_context
+from nbconvert.filters.markdown_mistune import IPythonRenderer, MarkdownWithMath
+from nbformat.notebooknode import NotebookNode
+from nbformat.v4 import new_output
+
+# nbconvert's Markdown parser needs seconds for some texts of this length, and minutes for longer ones.
+MAX_MARKDOWN = 20_000
+
+_SHOWN = ("text/plain", "text/latex", "image/svg+xml", "image/png", "image/jpeg")
+_BASE64 = re.compile(r"[A-Za-z0-9+/=\s]*\Z")
+_CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]+")
+
+
+def terminal_text(text: str, limit: int = 200) -> str:
+    """`text` on one line, without control or direction characters, at most `limit` characters."""
+    text = _CONTROL.sub(" ", text).strip()
+    return text if len(text) <= limit else f"{text[: limit - 3]}..."
+
+
+def inert_outputs(outputs: Iterable, count: int) -> list[NotebookNode]:
+    """Outputs of a student's cell rebuilt from what can only be looked at: text, formulas and pictures.
+
+    Parameters
+    ----------
+    outputs : iterable
+        nbformat outputs from a sandbox.
+    count : int
+        Execution count shown beside results.
+    """
+    kept = (_inert(output, count) for output in outputs)
+    return [output for output in kept if output is not None]
+
+
+def _inert(output: dict, count: int) -> NotebookNode | None:
+    kind = output.get("output_type")
+    if kind == "stream":
+        name = "stderr" if output.get("name") == "stderr" else "stdout"
+        return new_output("stream", name=name, text=_joined(output.get("text")))
+    if kind == "error":
+        lines = output.get("traceback")
+        return new_output(
+            "error",
+            ename=_joined(output.get("ename")),
+            evalue=_joined(output.get("evalue")),
+            traceback=[_joined(line) for line in lines] if isinstance(lines, list) else [],
+        )
+    if kind not in ("display_data", "execute_result") or not isinstance(output.get("data"), dict):
+        return None
+    data = {mime: _joined(output["data"][mime]) for mime in _SHOWN if mime in output["data"]}
+    data = {mime: text for mime, text in data.items() if mime not in ("image/png", "image/jpeg") or _BASE64.match(text)}
+    if not data:
+        return None
+    return new_output(kind, data=data, **({"execution_count": count} if kind == "execute_result" else {}))
+
+
+def _joined(text: object) -> str:
+    """One clean string from nbformat's string or list of strings."""
+    if isinstance(text, list):
+        text = "".join(line for line in text if isinstance(line, str))
+    return text.encode("utf-8", "replace").decode("utf-8") if isinstance(text, str) else ""
+
+
+class _Renderer(IPythonRenderer):
+    """Stock rendering, except that a missing attachment is said instead of ending the page."""
+
+    def _embed_image_or_attachment(self, src: str) -> str:
+        if src.startswith("attachment:") and src.removeprefix("attachment:") not in self.attachments:
+            return "missing-picture"
+        return super()._embed_image_or_attachment(src)
+
+
+@pass_context
+def markdown2html(context, source: str) -> str:
+    """nbconvert's filter of the same name, with every tag and attribute that could act left out."""
+    if len(source) > MAX_MARKDOWN:
+        return f"<pre>{html.escape(source)}</pre>"
+    attachments = (context.get("cell") or {}).get("attachments", {})
+    renderer = _Renderer(escape=False, attachments=attachments, exclude_anchor_links=True)
+    try:
+        page = MarkdownWithMath(renderer=renderer).render(source)
+    except RecursionError:
+        return f"<pre>{html.escape(source)}</pre>"
+    return bleach.clean(page, tags=_TAGS, attributes=_allowed, protocols=("http", "https", "mailto", "data"))
+
+
+_TAGS = frozenset(
+    "a abbr b blockquote br code dd del div dl dt em h1 h2 h3 h4 h5 h6 hr i img kbd li ol p pre s span strong sub sup "
+    "table tbody td th thead tr u ul".split()
+)
+_LINK = re.compile(r"(https?://|mailto:|#)\S*\Z")
+_IMAGE = re.compile(r"(data:image/(png|jpeg|svg\+xml);base64,[A-Za-z0-9+/=\s]*|\w[\w./-]*)\Z")
+_PYGMENTS = re.compile(r"(highlight|[a-z][a-z0-9]{0,2})\Z")
+
+
+def _allowed(tag: str, name: str, value: str) -> bool:
+    if tag == "a" and name == "href":
+        return bool(_LINK.match(value))
+    if tag == "img":
+        return name == "alt" or (name == "src" and bool(_IMAGE.match(value)))
+    if name == "class":
+        return tag in ("div", "span") and bool(_PYGMENTS.match(value))
+    return name in ("title", "align") or (tag == "ol" and name == "start")

@@ -1,0 +1,139 @@
+"""Grades a class: notebooks run side by side in their sandboxes, nbgrader's gradebook is written by one thread.
+
+Kernels take nearly all of the time and run in processes of their own, so worker threads only drive them. What
+they bring back goes through the very converter that ``nbgrader autograde`` uses, one submission after the other.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+
+import nbformat
+import psutil
+from nbgrader.api import Gradebook
+
+from .converters import (
+    FeedbackPages,
+    NotReady,
+    SubmissionAutograde,
+    notebook_names,
+    refuse_unless_ready,
+    released_path,
+    submission,
+)
+from .course import Course, CourseError, convert
+from .execution import Execution, execute
+from .preprocessors import SandboxExecute
+from .reading import fingerprint
+from .restore import restore
+from .results import Result, graded_notebooks, read_result
+
+Progress = Callable[[str], None]
+
+
+def grade(course: Course, exercise: str, students: Sequence[str], jobs: int, force: bool, progress: Progress) -> list[Result]:
+    """Grade the submissions of `students` for `exercise` and write their feedback.
+
+    Parameters
+    ----------
+    jobs : int
+        How many notebooks run at the same time.
+    force : bool
+        Grade also what was graded before and has not changed.
+    progress : callable
+        Called with the student's id after each submission.
+
+    Returns
+    -------
+    list of Result
+        In the order of `students`; ``status`` tells graded, unchanged and failed ones apart.
+    """
+    course.choose(exercise)
+    converter = SubmissionAutograde(coursedir=course.app.coursedir, parent=course.app)
+    try:
+        refuse_unless_ready(converter)
+    except NotReady as reason:
+        raise CourseError(str(reason)) from None
+    names = notebook_names(converter)
+    runner = SandboxExecute(parent=converter)
+    status = {}
+    for student in students:
+        status[student] = "graded" if force or _is_new(course, student, exercise, names) else "unchanged"
+        if status[student] == "unchanged":
+            progress(student)
+
+    def run(student: str) -> dict[tuple[str, str], Execution]:
+        return {(student, name): _run(course, runner, student, exercise, name) for name in names}
+
+    failures: dict[str, str] = {}
+    for student, future in _run_ahead(run, [name for name in students if status[name] == "graded"], jobs):
+        try:
+            _store(course, student, future.result())
+        except Exception as error:
+            failures[student] = f"could not be judged: {error if isinstance(error, CourseError) else repr(error)}"
+        progress(student)
+    with Gradebook(course.app.coursedir.db_url, course.app.coursedir.course_id) as gradebook:
+        return [
+            Result(student, exercise, "failed", remarks=(failures[student],))
+            if student in failures
+            else read_result(course, gradebook, student, exercise, status[student])
+            for student in students
+        ]
+
+
+def _is_new(course: Course, student: str, exercise: str, names: list[str]) -> bool:
+    notebooks = graded_notebooks(course, student, exercise)
+    if len(notebooks) != len(names):
+        return True
+    folder = course.step("submitted", student, exercise)
+    now = {fingerprint(folder, released_path(course.app.coursedir, exercise, name).read_bytes()) for name in names}
+    return now != {nb.metadata.get("autograder", {}).get("submission") for nb in notebooks}
+
+
+def _run(course: Course, runner: SandboxExecute, student: str, exercise: str, name: str) -> Execution:
+    released = released_path(course.app.coursedir, exercise, name)
+    folder = course.step("submitted", student, exercise)
+    nb = restore(submission(folder / f"{name}.ipynb", released), nbformat.read(released, as_version=4))
+    return execute(nb, (folder, released.parent), student, runner.limits, runner.mode, (course.root,))
+
+
+def _store(course: Course, student: str, executions: dict[tuple[str, str], Execution]) -> None:
+    """Judge what came out of the sandbox, store it in the gradebook and write the feedback page."""
+    whose = {"coursedir": course.app.coursedir, "parent": course.app, "students": (student,), "force": True}
+    convert(SubmissionAutograde(executions=executions, **whose))
+    try:
+        convert(FeedbackPages(**whose))
+    except CourseError as reason:
+        raise CourseError(f"the points are in the gradebook, but there is no feedback page: {reason}") from None
+
+
+def _run_ahead(run: Callable[[str], dict], students: list[str], jobs: int) -> Iterator[tuple[str, Future]]:
+    """Yield each student with the finished run, in the order in which runs end; few results wait at any time."""
+    waiting = iter(students)
+    running: dict[Future, str] = {}
+    with ThreadPoolExecutor(jobs) as pool:
+        try:
+            while True:
+                while len(running) < 2 * jobs and (student := next(waiting, None)) is not None:
+                    running[pool.submit(run, student)] = student
+                if not running:
+                    return
+                done, _ = wait(running, return_when=FIRST_COMPLETED)
+                for future in done:
+                    yield running.pop(future), future
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            _end_kernels(running)
+            raise
+
+
+def _end_kernels(running: dict[Future, str]) -> None:
+    """Kill the kernels until no run is left; a run may start its kernel again once or twice."""
+    while True:
+        for process in psutil.Process().children(recursive=True):
+            with contextlib.suppress(psutil.Error):
+                process.kill()
+        if not wait(running, timeout=0.2).not_done:
+            return

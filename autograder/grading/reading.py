@@ -1,0 +1,171 @@
+"""Reads what a student handed in: strictly, bounded, and never through a link.
+
+A submission is a file that a stranger wrote. What comes out of here is either a valid notebook that holds only
+cell types, sources, attached pictures and the nbgrader ids that the student's cells *claim* to have, or
+`Unreadable` with the reason in words that can be forwarded to the student.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+import stat
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+from nbformat.notebooknode import NotebookNode
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_raw_cell
+
+MAX_BYTES = 10 << 20
+MAX_CELLS = 1000
+MAX_SOURCE = 500_000
+MAX_FILES = 500
+MAX_FOLDER_BYTES = 64 << 20
+
+_NEW = {"code": new_code_cell, "markdown": new_markdown_cell, "raw": new_raw_cell}
+_PICTURE = re.compile(r"[A-Za-z0-9+/=\s]*\Z")
+# Ten megabytes of "[],[],..." become a quarter of a gigabyte of objects: one file is parsed at a time.
+_parsing = threading.Lock()
+
+
+class Unreadable(ValueError):
+    """The submission cannot be read; the message is a sentence for the lecturer and the student."""
+
+
+def read_submission(path: Path) -> NotebookNode:
+    """The notebook at `path`, reduced to what grading needs (see above); `Unreadable` otherwise."""
+    if not path.exists() and not path.is_symlink():
+        raise Unreadable(_missing(path))
+    for place in (path, path.parent, path.parent.parent):
+        if place.is_symlink():
+            raise Unreadable(f"{place.name} is a link, not a file of its own")
+    with _parsing:
+        return _notebook(_parse(plain_bytes(path, MAX_BYTES)))
+
+
+def plain_bytes(path: Path, limit: int) -> bytes:
+    """Content of a regular file of at most `limit` bytes; links, pipes and devices are `Unreadable`."""
+    try:
+        handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+    except OSError as error:
+        raise Unreadable(f"{path.name} cannot be opened ({error.strerror})") from None
+    with os.fdopen(handle, "rb") as file:
+        status = os.fstat(handle)
+        if not stat.S_ISREG(status.st_mode):
+            raise Unreadable(f"{path.name} is not a regular file")
+        content = file.read(limit + 1)
+    if len(content) > limit:
+        raise Unreadable(f"{path.name} is larger than {limit >> 20} MiB; clear its outputs and hand it in again")
+    return content
+
+
+def plain_files(folder: Path) -> Iterator[Path]:
+    """Regular files under `folder` in a stable order, links neither followed nor listed, at most `MAX_FILES`."""
+    left = MAX_FILES
+    for place, folders, names in os.walk(folder, followlinks=False):
+        folders[:] = sorted(name for name in folders if not name.startswith(".") and name != "__pycache__")
+        for name in sorted(names):
+            path = Path(place, name)
+            if left and stat.S_ISREG(path.lstat().st_mode):
+                left -= 1
+                yield path
+
+
+def fingerprint(folder: Path, released: bytes) -> str:
+    """SHA-256 of a submission's files and of the released notebook: equal means there is nothing new to grade."""
+    digest = hashlib.sha256(released)
+    for path in plain_files(folder):
+        digest.update(os.fsencode(path.relative_to(folder)) + b"\0")
+        with path.open("rb") as file:
+            left = MAX_FOLDER_BYTES
+            while left > 0 and (block := file.read(min(left, 1 << 20))):
+                digest.update(block)
+                left -= len(block)
+        digest.update(b"%d\0" % path.stat().st_size)
+    return digest.hexdigest()
+
+
+def _missing(path: Path) -> str:
+    others = sorted(file.name for file in path.parent.glob("*.ipynb"))
+    if not others:
+        return f"there is no {path.name} in the folder"
+    return f"there is no {path.name} in the folder, but {others[0]}; rename it and hand it in again"
+
+
+def _parse(content: bytes) -> object:
+    if not content.strip():
+        raise Unreadable("the file is empty")
+    try:
+        return json.loads(content.decode("utf-8-sig"), parse_constant=_no_constant)
+    except UnicodeDecodeError:
+        raise Unreadable("the file is not UTF-8 text") from None
+    except json.JSONDecodeError as error:
+        raise Unreadable(f"the file is not valid JSON (line {error.lineno}); it may have been cut off") from None
+    except RecursionError:
+        raise Unreadable("the file is nested far too deeply for a notebook") from None
+    except ValueError:
+        raise Unreadable("the file holds a number that no notebook holds") from None
+
+
+def _no_constant(name: str) -> None:
+    raise ValueError(name)
+
+
+def _notebook(content: object) -> NotebookNode:
+    if not isinstance(content, dict) or not isinstance(content.get("cells"), list | None) or "nbformat" not in content:
+        raise Unreadable("the file is not a Jupyter notebook")
+    if content["nbformat"] != 4 or "cells" not in content:
+        raise Unreadable("the notebook has an old or unknown format; open it in JupyterLab, save it and hand it in again")
+    if len(content["cells"]) > MAX_CELLS:
+        raise Unreadable(f"the notebook has more than {MAX_CELLS} cells")
+    cells = [_cell(number, cell) for number, cell in enumerate(content["cells"], 1)]
+    if (length := sum(len(cell.source) for cell in cells)) > MAX_SOURCE:
+        raise Unreadable(f"the notebook holds {length:,} characters of text, without its outputs")
+    return new_notebook(cells=cells, metadata={"autograder": {"kernel": _kernel(content.get("metadata"))}})
+
+
+def _kernel(metadata: object) -> str | None:
+    spec = metadata.get("kernelspec") if isinstance(metadata, dict) else None
+    name = spec.get("name") if isinstance(spec, dict) else None
+    return _text(name)[:60] if isinstance(name, str) else None
+
+
+def _cell(number: int, cell: object) -> NotebookNode:
+    if not isinstance(cell, dict) or cell.get("cell_type") not in _NEW:
+        raise Unreadable(f"cell {number} is not a notebook cell")
+    source = cell.get("source", "")
+    if isinstance(source, list) and all(isinstance(line, str) for line in source):
+        source = "".join(source)
+    if not isinstance(source, str):
+        raise Unreadable(f"the source of cell {number} is not text")
+    clean = _NEW[cell["cell_type"]](source=_text(source), id=f"cell-{number}")
+    if (claim := _claim(cell.get("metadata"))) is not None:
+        clean.metadata["nbgrader"] = {"grade_id": claim}
+    if cell["cell_type"] == "markdown" and (pictures := _attachments(cell.get("attachments"))):
+        clean["attachments"] = pictures
+    return clean
+
+
+def _claim(metadata: object) -> str | None:
+    """The nbgrader id a cell says it has."""
+    marks = metadata.get("nbgrader") if isinstance(metadata, dict) else None
+    claim = marks.get("grade_id") if isinstance(marks, dict) else None
+    return claim if isinstance(claim, str) else None
+
+
+def _attachments(found: object) -> dict[str, dict[str, str]]:
+    kept = {}
+    for name, forms in found.items() if isinstance(found, dict) else ():
+        for mime in ("image/png", "image/jpeg"):
+            data = forms.get(mime) if isinstance(forms, dict) else None
+            if isinstance(data, str) and _PICTURE.match(data):
+                kept[_text(name)] = {mime: data}
+    return kept
+
+
+def _text(text: str) -> str:
+    """`text` without lone surrogates, which JSON can hold but no UTF-8 file can."""
+    return text.encode("utf-8", "replace").decode("utf-8")

@@ -1,0 +1,119 @@
+"""What grading found, one `Result` per submission, read back from the graded notebook and the gradebook."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import nbformat
+from nbgrader.api import Gradebook, MissingEntry
+
+from .course import Course
+from .export import results
+from .inert import terminal_text
+from .reading import Unreadable, plain_bytes
+from .restore import grade_id, is_check, question_id
+
+_SAID_WHY = ("error", "timeout", "memory", "output_limit", "died", "not_run")
+
+
+@dataclass(frozen=True)
+class Answer:
+    """One question of one submission: points, answer note, and why it did not run, if it did not."""
+
+    question: str
+    score: float
+    points: float
+    note: str
+    trouble: str | None = None
+
+
+@dataclass(frozen=True)
+class Result:
+    """One line of the class table.
+
+    Attributes
+    ----------
+    status : str
+        ``"graded"``, ``"unchanged"`` (graded before and not handed in again) or ``"failed"`` (could not be judged).
+    remarks : tuple of str
+        What was wrong with the notebook as a whole, in words that can be forwarded.
+    feedback : str or None
+        Path of the HTML page.
+    """
+
+    student: str
+    exercise: str
+    status: str
+    score: float | None = None
+    max_score: float | None = None
+    answers: tuple[Answer, ...] = ()
+    remarks: tuple[str, ...] = ()
+    feedback: str | None = None
+
+    def found(self) -> str:
+        """What was found, on one line: ``"T04: sign_of_d2; U1: not_attempted"`` or ``"all right"``."""
+        return "; ".join((*self._notes(), *self.remarks))
+
+    def _notes(self) -> list[str]:
+        if self.status == "failed":
+            return []
+        notes = Counter(answer.note for answer in self.answers)
+        if len(notes) == 1 and len(self.answers) > 1:
+            (note,) = notes
+            return ["all right" if note == "right" else f"all {len(self.answers)}: {note}"]
+        return [_in_short(answer) for answer in self.answers if answer.note != "right"]
+
+    def as_json(self) -> dict:
+        """The same as plain data, for ``grade --json``."""
+        return {**asdict(self), "found": self.found()}
+
+
+def _in_short(answer: Answer) -> str:
+    why = f" ({terminal_text(answer.trouble, 80)})" if answer.trouble and answer.note in _SAID_WHY else ""
+    return f"{answer.question.partition('.')[2]}: {answer.note}{why}"
+
+
+def graded_notebooks(course: Course, student: str, exercise: str) -> list[nbformat.NotebookNode]:
+    """The graded notebooks of a submission; empty if it was not graded or they cannot be read."""
+    found = []
+    for path in sorted(course.step("autograded", student, exercise).glob("*.ipynb")):
+        try:
+            found.append(nbformat.reads(plain_bytes(path, 64 << 20).decode(), as_version=4))
+        except (Unreadable, ValueError):
+            return []
+    return found
+
+
+def read_result(course: Course, gradebook: Gradebook, student: str, exercise: str, status: str) -> Result:
+    """The result of a submission that was graded now or before."""
+    try:
+        submission = gradebook.find_submission(exercise, student)
+    except MissingEntry:
+        return Result(student, exercise, "failed", remarks=("the gradebook does not know this submission",))
+    notebooks = graded_notebooks(course, student, exercise)
+    order = [grade_id(cell) for nb in notebooks for cell in nb.cells if is_check(cell)]
+    trouble = {grade_id(cell): cell.metadata.get("autograder", {}).get("trouble") for nb in notebooks for cell in nb.cells}
+    answers = [
+        Answer(question_id(name), score, most, note or "", trouble.get(name)) for name, score, most, note in results(submission)
+    ]
+    answers.sort(key=lambda answer: order.index(answer.question.replace(".", "-", 1)) if order else 0)
+    feedback = sorted(course.step("feedback", student, exercise).glob("*.html"))
+    score = max(0.0, submission.score - submission.late_submission_penalty)
+    page = str(feedback[0]) if feedback else None
+    return Result(student, exercise, status, score, submission.max_score, tuple(answers), _remarks(notebooks), page)
+
+
+def _remarks(notebooks: list[nbformat.NotebookNode]) -> tuple[str, ...]:
+    remarks = []
+    for nb in notebooks:
+        ours = nb.metadata.get("autograder", {})
+        remarks += [ours[key] for key in ("unreadable", "trouble") if ours.get(key)]
+        remarks += ours.get("repairs", [])
+    return tuple(remarks)
+
+
+def relative(path: str | Path, root: Path) -> str:
+    """`path` as seen from the course root."""
+    return str(Path(path).relative_to(root)) if Path(path).is_relative_to(root) else str(path)

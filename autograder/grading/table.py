@@ -1,0 +1,68 @@
+"""What the commands show in a terminal: progress, class table, report."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.table import Table
+
+from .course import Course
+from .inert import terminal_text
+from .report import QuestionReport
+from .results import Result, relative
+
+
+@contextmanager
+def progress_bar(exercise: str, count: int) -> Iterator[Callable[[str], None]]:
+    """A bar on stderr; call what it gives with each student that is done."""
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TextColumn("{task.fields[last]}"))
+    with Progress(*columns, console=Console(stderr=True)) as bar:
+        task = bar.add_task(f"grading {exercise}", total=count, last="")
+        yield lambda student: bar.update(task, advance=1, last=escape(terminal_text(student, 30)))
+
+
+def class_table(results: Sequence[Result]) -> None:
+    """The class table: student, exercise, score and what was found."""
+    table = Table("student", "exercise", "score", "found", title=None)
+    table.columns[2].justify = "right"
+    for result in results:
+        score = "-" if result.score is None else f"{result.score:g}/{result.max_score:g}"
+        table.add_row(*map(_cell, (result.student, result.exercise, score, result.found())))
+    _console().print(table)
+
+
+def summary(course: Course, results: Sequence[Result]) -> None:
+    """How many were graded, left alone or failed, and where the feedback is."""
+    counts = {status: sum(result.status == status for result in results) for status in ("graded", "unchanged", "failed")}
+    words = [f"{counts['graded']} graded"]
+    if counts["unchanged"]:
+        words.append(f"{counts['unchanged']} unchanged since they were graded (--force grades them again)")
+    if counts["failed"]:
+        words.append(f"{counts['failed']} could not be judged")
+    print("; ".join(words))
+    pages = [result.feedback for result in results if result.feedback]
+    if pages:
+        step = course.step("feedback", "*", results[0].exercise)
+        print(f"feedback: {relative(step, course.root)}/*.html, for example {terminal_text(pages[0])}")
+
+
+def report_table(reports: Sequence[QuestionReport]) -> None:
+    """One line per question: points and notes by frequency."""
+    table = Table("question", "points", "n", "mean", "median", "full", "part", "none", "notes")
+    for report in reports:
+        table.add_row(*(_cell(str(value)) for value in report.summary().values()))
+    _console().print(table)
+
+
+def _console() -> Console:
+    console = Console()
+    # Piped into a file or a pager a table must not be cut at 80 columns.
+    return console if console.is_terminal else Console(width=200)
+
+
+def _cell(text: str) -> str:
+    return escape(terminal_text(text, 400))

@@ -1,0 +1,44 @@
+"""nbgrader's configuration of this course.
+
+With it the stock commands (generate_assignment, autograde, generate_feedback, export) and formgrader give the
+same scores, notes and feedback as the `autograder` command. Limits of the sandbox can be set here too, for
+example `c.SandboxExecute.cell_seconds = 60`.
+"""
+
+from autograder.grading.host import prepare
+
+prepare()
+
+c = get_config()  # noqa: F821
+
+c.CourseDirectory.source_directory = "solutions"
+c.CourseDirectory.release_directory = "exercises"
+
+c.ClearSolutions.code_stub = {"python": "# your code here"}
+
+c.Autograde.exporter_class = "autograder.grading.converters.SubmissionExporter"
+c.Autograde.sanitize_preprocessors = [
+    "autograder.grading.preprocessors.RestoreCells",
+    "nbgrader.preprocessors.CheckCellMetadata",
+]
+c.Autograde.autograde_preprocessors = [
+    "autograder.grading.preprocessors.SandboxExecute",
+    "autograder.grading.preprocessors.JudgeAnswers",
+    "nbgrader.preprocessors.LimitOutput",
+    "nbgrader.preprocessors.SaveAutoGrades",
+    "autograder.grading.preprocessors.SaveNotes",
+    "nbgrader.preprocessors.AssignLatePenalties",
+    "nbgrader.preprocessors.CheckCellMetadata",
+]
+
+c.GenerateFeedback.exporter_class = "autograder.grading.converters.FeedbackExporter"
+c.GenerateFeedback.preprocessors = [
+    "autograder.grading.preprocessors.Summarize",
+    "nbconvert.preprocessors.CSSHTMLHeaderPreprocessor",
+]
+
+# Formgrader and feedback pages show what students wrote: nothing in it may act. Graded notebooks hold no HTML or
+# script output; what is left is Markdown. (sanitize_html would also escape the paragraphs of our own feedback.)
+c.HTMLExporter.filters = {"markdown2html": "autograder.grading.inert.markdown2html"}
+
+c.ExportApp.plugin_class = "autograder.grading.export.GradesAndNotes"
