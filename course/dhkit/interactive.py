@@ -1,0 +1,56 @@
+"""Sliders for a drawing, with a static figure wherever widgets do not run."""
+
+from __future__ import annotations
+
+import base64
+from io import BytesIO
+
+import matplotlib.pyplot as plt
+from IPython.display import Image, display
+
+
+def explore(draw, **sliders: tuple[float, float, float]) -> None:
+    """Show ``draw(**values)`` with one slider per value.
+
+    The figure for the start values goes along as a plain picture: it is what a printed notebook, a web page or a
+    kernel without ipywidgets shows.
+
+    Parameters
+    ----------
+    draw : function
+        Called with one number per slider; returns the Axes it drew on.
+    **sliders : (lowest, highest, start)
+        Range and start of each value, in the unit that `draw` awaits.
+    """
+    start = {name: value for name, (_, _, value) in sliders.items()}
+    static = _png(draw, start)
+    try:
+        import ipywidgets
+    except ImportError:
+        display(Image(static))
+        return
+    controls = {
+        name: ipywidgets.FloatSlider(
+            value, min=low, max=high, step=(high - low) / 100, description=name, readout_format=".3g"
+        )
+        for name, (low, high, value) in sliders.items()
+    }
+    picture = ipywidgets.Image(
+        value=static, format="png", layout=ipywidgets.Layout(max_width="100%", width="max-content")
+    )
+
+    def redraw(_change):
+        picture.value = _png(draw, {name: control.value for name, control in controls.items()})
+
+    for control in controls.values():
+        control.observe(redraw, names="value")
+    box = ipywidgets.VBox([*controls.values(), picture])
+    display({**box._repr_mimebundle_(), "image/png": base64.b64encode(static).decode()}, raw=True)
+
+
+def _png(draw, values: dict[str, float]) -> bytes:
+    figure = draw(**values).figure
+    buffer = BytesIO()
+    figure.savefig(buffer, format="png", bbox_inches="tight", dpi=90)
+    plt.close(figure)
+    return buffer.getvalue()
