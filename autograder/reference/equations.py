@@ -31,7 +31,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .orientation import wrap
+from .planar import two_link, wrap
 
 SOLVED = "solved"
 DOUBLE = "boundary: the two solutions merge"
@@ -171,35 +171,32 @@ def type7(W1, W2, X, Y, Z1, Z2, tolerance=1e-12):
 def type8(X, Y, Z1, Z2, tolerance=1e-12):
     """X Ci + Y Cij = Z1, X Si + Y Sij = Z2: values (..., 2, 2).
 
-    Returns the pairs (theta_i, theta_j); the first has theta_j >= 0, the second
-    theta_j <= 0. With rho = hypot(Z1, Z2): two solutions for
-    ``||X| - |Y|| < rho < |X| + |Y|``, one on the limits, none outside. Infinitely
-    many when X or Y is zero and rho equals the other, or when rho = 0 and
-    ``|X| = |Y|``. The sine of theta_j is taken from the product of the four
-    differences rho +- X +- Y, which stays accurate at the limits.
+    Returns the pairs (theta_i, theta_j) of the two-link arm; for X Y > 0 the first
+    has theta_j >= 0, the second theta_j <= 0. With rho = hypot(Z1, Z2): two
+    solutions for ``||X| - |Y|| < rho < |X| + |Y|``, one on the limits, none outside.
+    Infinitely many when X or Y is zero and rho equals the other, or when rho = 0
+    and ``|X| = |Y|``.
     """
     (X, Y, Z1, Z2), tolerance = _coefficients(tolerance, X, Y, Z1, Z2)
-    rho = np.hypot(Z1, Z2)
-    long, short = np.abs(X) + np.abs(Y), np.abs(np.abs(X) - np.abs(Y))
-    no_X, no_Y, no_Z = np.abs(X) <= tolerance, np.abs(Y) <= tolerance, rho <= tolerance
-    in_reach = (rho <= long + tolerance) & (rho >= short - tolerance)
-    folded = no_Z & (short <= tolerance)
-    double = (np.abs(rho - long) <= tolerance) | (np.abs(rho - short) <= tolerance)
+    target, rho = Z1 + 1j * Z2, np.hypot(Z1, Z2)
+    far, near = np.abs(X) + np.abs(Y), np.abs(np.abs(X) - np.abs(Y))
+    no_X, no_Y = np.abs(X) <= tolerance, np.abs(Y) <= tolerance
+    one_link = no_X | no_Y
+    folded = (rho <= tolerance) & (near <= tolerance)
+    in_reach = (rho <= far + tolerance) & (rho >= near - tolerance)
+    double = (np.abs(rho - far) <= tolerance) | (np.abs(rho - near) <= tolerance)
 
-    product = (long - rho) * (long + rho) * (rho - short) * (rho + short)
-    sine = np.sqrt(np.where(double, 0.0, np.maximum(product, 0.0)))
-    cosine = (rho**2 - X**2 - Y**2) * np.where(X * Y < 0, -1.0, 1.0)
-    bend = np.where(no_X | no_Y, 0.0, np.arctan2(sine, cosine))
-    theta_j = np.stack([bend, -bend], axis=-1)
-    X, Y = X[..., None], Y[..., None]
-    theta_i = np.arctan2(Z2, Z1)[..., None] - np.arctan2(Y * np.sin(theta_j),
-                                                         X + Y * np.cos(theta_j))
-    values = wrap(np.stack([np.where(folded[..., None], 0.0, theta_i), theta_j], axis=-1))
-    infinite = in_reach & (no_X | no_Y | folded)
+    lengths = [np.where(one_link, 1.0, np.abs(length)).ravel() for length in (X, Y)]
+    arm = two_link(target.ravel(), *lengths, anchor=0.0, tol=tolerance.ravel())
+    pairs = np.stack([arm.first, arm.bend], axis=-1).swapaxes(0, 1).reshape(X.shape + (2, 2))
+    turned = np.pi * np.stack([X < 0, (X < 0) != (Y < 0)], axis=-1)
+    alone = np.stack([np.angle(target * np.where(X + Y < 0, -1, 1)), np.zeros_like(rho)], axis=-1)
+    values = np.where(one_link[..., None, None], alone[..., None, :],
+                      wrap(pairs + turned[..., None, :]))
     free = np.select([no_X & no_Y, no_X, no_Y],
                      ["theta_i and theta_j", "theta_i (theta_i + theta_j defined)", "theta_j"],
                      "theta_i")
-    return _roots(values, _twice(in_reach), infinite, free, double)
+    return _roots(values, _twice(in_reach), in_reach & (one_link | folded), free, double)
 
 
 def _coefficients(tolerance, *coefficients):

@@ -18,6 +18,8 @@ from itertools import product
 
 import numpy as np
 
+from .planar import wrap
+
 EULER_SETS = tuple("".join(s) for s in product("xyz", repeat=3) if s[0] != s[1] != s[2])
 """The twelve sequences without two equal neighbours."""
 
@@ -34,12 +36,6 @@ ONLY_DIFFERENCE = "only first - third"
 AXIS_DEFINED = "two solutions: (axis, angle) and (-axis, -angle)"
 AXIS_FREE = "angle 0: every axis"
 HALF_TURN = "half turn: both senses of the axis with the same angle"
-
-
-def wrap(angle):
-    """The same angle in (-pi, pi]. Any shape, radians."""
-    angle = np.asarray(angle, float)
-    return angle - 2 * np.pi * np.ceil((angle - np.pi) / (2 * np.pi))
 
 
 def rotation(axis, angle):

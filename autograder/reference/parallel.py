@@ -18,7 +18,7 @@ from itertools import product
 import numpy as np
 
 from .equations import DOUBLE, INFINITE, NONE, SOLVED, Roots, type8
-from .orientation import wrap
+from .planar import wrap
 
 # In lengths scaled to 1. An error e of a merged mode shows as e^2 in the leg lengths: hence
 # the square between the first two.
