@@ -3,7 +3,7 @@
 from .bubblewrap import SandboxUnavailable, available
 from .client import CellRun, KernelStartError
 from .limits import Limits
-from .run import Run, run_notebook
+from .run import Run, cancel_runs, run_notebook
 
 __all__ = [
     "CellRun",
@@ -12,5 +12,6 @@ __all__ = [
     "Run",
     "SandboxUnavailable",
     "available",
+    "cancel_runs",
     "run_notebook",
 ]

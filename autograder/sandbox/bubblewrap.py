@@ -173,22 +173,25 @@ def process_quota(limits: Limits, uid: int | None) -> int:
     )
 
 
-def resource_limits(limits: Limits, uid: int | None) -> dict[str, int]:
-    """Names and values for setrlimit in each process of the sandbox.
+def resource_limits(limits: Limits, uid: int | None) -> dict[str, tuple[int, int]]:
+    """Names and (soft, hard) values for setrlimit in each process of the sandbox.
 
     RLIMIT_DATA counts what can be written, so that a large allocation fails
-    in the cell that asks for it; RLIMIT_AS leaves room for libraries mapped
-    and reserved but never touched, and catches shared mappings.
+    in the cell that asks for it, a little before the whole sandbox is stopped;
+    RLIMIT_AS leaves room for libraries mapped and reserved but never touched,
+    and catches shared mappings.
     """
-    return {
-        "RLIMIT_DATA": limits.memory,
+    same = {
+        "RLIMIT_DATA": limits.memory - limits.memory // 8,
         "RLIMIT_AS": limits.memory + (3 << 30),
         "RLIMIT_NPROC": process_quota(limits, uid),
         "RLIMIT_FSIZE": limits.file_size,
         "RLIMIT_NOFILE": limits.open_files,
-        "RLIMIT_CPU": limits.cpu_seconds,
         "RLIMIT_CORE": 0,
     }
+    bounds = {name: (value, value) for name, value in same.items()}
+    # At the soft limit comes SIGXCPU, by which the cause is known afterwards.
+    return bounds | {"RLIMIT_CPU": (limits.cpu_seconds, limits.cpu_seconds + 5)}
 
 
 def namespaces(uid: int | None) -> list[str]:

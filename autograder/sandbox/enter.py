@@ -30,8 +30,8 @@ def main():
     write_files(plan["home"], plan["files"])
     os.makedirs(plan["cwd"], exist_ok=True)
     os.chdir(plan["cwd"])
-    for name, value in plan["limits"].items():
-        resource.setrlimit(getattr(resource, name), (value, value))
+    for name, bounds in plan["limits"].items():
+        resource.setrlimit(getattr(resource, name), bounds)
     null = os.open(os.devnull, os.O_RDONLY)
     os.dup2(null, 0)
     os.close(null)

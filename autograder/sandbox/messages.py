@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hmac
 import json
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -35,6 +36,13 @@ def refuse_constant(name: str) -> None:
     raise MalformedMessage(f"{name} is not JSON")
 
 
+def finite(text: str) -> float:
+    number = float(text)
+    if math.isinf(number):
+        raise MalformedMessage(f"{text[:20]} is out of range")
+    return number
+
+
 def depth_exceeds(value: Any, limit: int) -> bool:
     """Whether lists and dicts are nested more than ``limit`` deep."""
     level = [value]
@@ -53,7 +61,9 @@ def depth_exceeds(value: Any, limit: int) -> bool:
 def parse_json(raw: bytes) -> dict[str, Any]:
     """A JSON object from untrusted bytes: strict, of bounded depth, with text that can be written as UTF-8."""
     try:
-        value = json.loads(raw.decode("utf-8", "replace"), parse_constant=refuse_constant)
+        value = json.loads(raw.decode("utf-8", "replace"), parse_constant=refuse_constant, parse_float=finite)
+    except MalformedMessage:
+        raise
     except RecursionError as error:
         raise MalformedMessage("nested too deep") from error
     except ValueError as error:

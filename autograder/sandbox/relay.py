@@ -207,6 +207,8 @@ class Relay(threading.Thread):
             try:
                 if len(self._gates) >= CONNECTIONS:
                     raise ConnectionRefusedError
+                # A kernel that accepts no connections must not hold up the others.
+                theirs.setblocking(False)
                 theirs.connect(str(self._doors[door]))
             except OSError:
                 ours.close()
@@ -216,8 +218,8 @@ class Relay(threading.Thread):
             self._gates.append(gate)
             grader, kernel = Side(ours), Side(theirs, gate)
             grader.peer, kernel.peer = kernel, grader
+            ours.setblocking(False)
             for side in (grader, kernel):
-                side.sock.setblocking(False)
                 self._selector.register(side.sock, selectors.EVENT_READ, side)
 
     def _carry(self, side: Side, ready: int) -> None:

@@ -20,6 +20,8 @@ from .limits import Limits
 
 MAX_RESTARTS = 2
 
+RUNNING: set[asyncio.Task[Run]] = set()
+
 Followup = Callable[[int, NotebookNode, list[NotebookNode]], str | None]
 
 
@@ -66,6 +68,8 @@ class Session:
         result = await self.client.run_code(source, cell, len(self.nb.cells) - 1, deadline)
         if result.status == "timeout" and by_notebook:
             result.message = f"stopped: the notebook's {self.limits.notebook_seconds:g} s were used up"
+        elif result.status == "timeout":
+            result.message = f"stopped after {self.limits.cell_seconds:g} s"
         return result
 
     async def replay(self, index: int) -> None:
@@ -107,14 +111,18 @@ async def run_cells(session: Session, followup: Followup | None) -> None:
             probed = await session.execute(code, index)
             run.followups[index] = probed.outputs
             if probed.status != "ok" and result.status == "ok":
-                result.status, result.message = probed.status, probed.message
+                result.status = probed.status
+                result.message = f"{probed.message} (with the grader's inputs)"
 
 
 async def run_session(session: Session, followup: Followup | None) -> Run:
+    task = asyncio.current_task()
+    RUNNING.add(task)
     try:
         await run_cells(session, followup)
     finally:
         session.stop()
+        RUNNING.discard(task)
     return session.run
 
 
@@ -154,9 +162,26 @@ def run_notebook(
         "hidden": [str(folder) for folder in hidden],
     }
     session = Session(copy.deepcopy(nb), limits, options)
-    try:
-        asyncio.get_running_loop()
-    except RuntimeError:
+    if not loop_is_running():
         return asyncio.run(run_session(session, followup))
     with concurrent.futures.ThreadPoolExecutor(1) as thread:
         return thread.submit(asyncio.run, run_session(session, followup)).result()
+
+
+def loop_is_running() -> bool:
+    """Whether this thread is inside an event loop already, as in formgrader's server."""
+    try:
+        asyncio.get_running_loop()
+    except RuntimeError:
+        return False
+    return True
+
+
+def cancel_runs() -> None:
+    """End every ``run_notebook`` under way in other threads: each kills its kernel and raises CancelledError.
+
+    For the main thread's ``except KeyboardInterrupt``, because an interrupt
+    reaches no other thread.
+    """
+    for task in tuple(RUNNING):
+        task.get_loop().call_soon_threadsafe(task.cancel)

@@ -21,20 +21,23 @@ def family(pid: int) -> list[psutil.Process]:
         return []
 
 
+def summed_lines(path: str, names: tuple[str, ...]) -> int:
+    """Sum in bytes of the named lines of a /proc file that counts in kB; 0 when it cannot be read."""
+    try:
+        with open(path) as file:
+            return sum(int(line.split()[1]) << 10 for line in file if line.startswith(names))
+    except (OSError, ValueError, IndexError):
+        return 0
+
+
+def resident_bytes(pid: int) -> int:
+    """Memory of one process that is not a copy of a file on disk."""
+    return summed_lines(f"/proc/{pid}/status", ("RssAnon:", "RssShmem:", "VmSwap:"))
+
+
 def proportional_bytes(pid: int) -> int:
-    """Memory of one process with shared pages divided among those who share them; 0 when it cannot be read."""
-    try:
-        with open(f"/proc/{pid}/smaps_rollup") as file:
-            return sum(int(line.split()[1]) << 10 for line in file if line.startswith(("Pss:", "SwapPss:")))
-    except (OSError, ValueError):
-        return 0
-
-
-def resident_bytes(process: psutil.Process) -> int:
-    try:
-        return process.memory_info().rss
-    except psutil.Error:
-        return 0
+    """The same, with pages that processes share divided among them."""
+    return summed_lines(f"/proc/{pid}/smaps_rollup", ("Pss_Anon:", "Pss_Shmem:", "SwapPss:"))
 
 
 def buffered_bytes(process: psutil.Process) -> int:
@@ -67,7 +70,7 @@ def memory_in_use(pid: int, places: Iterable[str] = (), above: int = 0) -> int:
     members = family(pid)
     buffers = sum(map(buffered_bytes, members))
     stored = stored_bytes(members[-1].pid, places) if members else 0
-    resident = sum(map(resident_bytes, members))
+    resident = sum(resident_bytes(member.pid) for member in members)
     if resident + stored + buffers <= above:
         return resident + stored + buffers
     proportional = sum(proportional_bytes(member.pid) for member in members)

@@ -1,0 +1,250 @@
+"""One bad cell costs one question: order, replay, time, follow-ups, threads, interrupts."""
+
+import asyncio
+import concurrent.futures
+import copy
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import nbformat
+import pytest
+
+from autograder import sandbox
+from autograder.sandbox import client, provisioner
+
+SHORT = sandbox.Limits(cell_seconds=1.5, notebook_seconds=60)
+
+
+@pytest.fixture(params=["bwrap", "none"])
+def either(request, run_cells):
+    """run_cells in both modes."""
+    if request.param == "bwrap":
+        request.getfixturevalue("needs_sandbox")
+    return lambda *sources, **options: run_cells(*sources, mode=request.param, **options)
+
+
+def test_cells_share_a_kernel_and_an_exception_costs_one_cell(either, statuses, printed):
+    run = either("x = 41", "1 / 0", "print(x + 1)", "", "import warnings; warnings.warn('noise'); x", "x = = 1")
+    assert statuses(run) == ["ok", "error", "ok", "ok", "ok", "error"]
+    assert run.cells[1].message == "ZeroDivisionError: division by zero"
+    assert run.cells[5].message.startswith("SyntaxError")
+    assert printed(run, 2) == "42"
+    assert run.cells[4].outputs[-1].data["text/plain"] == "41"
+    assert run.message is None
+
+
+def test_the_given_notebook_is_not_changed_and_only_code_is_run(either, tmp_path):
+    notebook = nbformat.v4.new_notebook(
+        cells=[nbformat.v4.new_markdown_cell("1/0"), nbformat.v4.new_code_cell("7")],
+        metadata={"kernelspec": {"name": "no-such-kernel", "display_name": "?"}},
+    )
+    before = copy.deepcopy(notebook)
+    run = sandbox.run_notebook(notebook, workdir=tmp_path, mode="none")
+    assert notebook == before
+    assert list(run.cells) == [1] and run.cells[1].status == "ok"
+
+
+def test_an_infinite_loop_is_interrupted_and_the_kernel_kept(either, statuses, printed):
+    run = either("x = 5", "while True: pass", "print(x)", limits=SHORT)
+    assert statuses(run) == ["ok", "timeout", "ok"]
+    assert run.cells[1].message == "stopped after 1.5 s"
+    assert printed(run, 2) == "5"
+
+
+def test_a_loop_that_cannot_be_interrupted_costs_its_cell_only(either, statuses, printed):
+    stubborn = """
+import signal, time
+signal.signal(signal.SIGINT, signal.SIG_IGN); signal.signal(signal.SIGTERM, signal.SIG_IGN)
+while True:
+    time.sleep(1)
+"""
+    run = either("x = 5", stubborn, "print(x)", "y = x + 1", limits=SHORT)
+    assert statuses(run) == ["ok", "timeout", "ok", "ok"]
+    assert printed(run, 2) == "5"
+
+
+@pytest.mark.parametrize(
+    "end", ["import os; os._exit(1)", "exit()", "import os, signal; os.kill(os.getpid(), signal.SIGKILL)"]
+)
+def test_a_dead_kernel_is_replaced_and_the_cells_before_replayed(sandboxed, statuses, printed, end):
+    run = sandboxed("x = [1]", "x.append(2); 1 / 0", end, "print(x)")
+    assert statuses(run) == ["ok", "error", "died", "ok"]
+    assert printed(run, 3) == "[1, 2]"
+    assert run.cells[1].message == "ZeroDivisionError: division by zero"
+
+
+def test_system_exit_costs_one_cell(either, statuses):
+    assert statuses(either("x = 1", "raise SystemExit(3)", "x")) == ["ok", "error", "ok"]
+
+
+def test_after_two_restarts_the_rest_is_not_run(sandboxed, statuses):
+    run = sandboxed("x = 1", *["import os; os._exit(0)"] * 4, "x")
+    assert statuses(run) == ["ok", "died", "died", "died", "not_run", "not_run"]
+    assert "3 times" in run.message
+    assert run.cells[5].message
+
+
+def test_the_notebook_has_a_time_of_its_own(either, statuses):
+    nap = "import time; time.sleep(0.9)"
+    run = either(nap, nap, nap, nap, nap, limits=sandbox.Limits(cell_seconds=30, notebook_seconds=2.2))
+    assert statuses(run) == ["ok", "ok", "timeout", "not_run", "not_run"]
+    assert "2.2 s" in run.message and "2.2 s" in run.cells[2].message
+
+
+def test_followup_code_runs_in_the_same_kernel_and_is_kept_apart(either, printed):
+    seen = []
+
+    def followup(index, cell, outputs):
+        seen.append((index, cell.source, len(outputs)))
+        return "print(f(20))" if index == 1 else None
+
+    run = either("def f(x): return 2 * x", "print('own')", "print(f(1))", followup=followup)
+    assert seen == [(0, "def f(x): return 2 * x", 0), (1, "print('own')", 1), (2, "print(f(1))", 1)]
+    assert printed(run, 1) == "own"
+    assert [output.text for output in run.followups[1]] == ["40\n"]
+    assert set(run.followups) == {1}
+
+
+def test_trouble_in_followup_code_is_told_of_its_cell(either, statuses, printed):
+    run = either(
+        "def f():\n    while True: pass",
+        "1",
+        "print('later')",
+        limits=SHORT,
+        followup=lambda index, cell, outputs: "f()" if index == 1 else None,
+    )
+    assert statuses(run) == ["ok", "timeout", "ok"]
+    assert "grader's inputs" in run.cells[1].message
+    assert printed(run, 2) == "later"
+
+
+def test_input_does_not_wait(either, statuses):
+    run = either(
+        "input('name? ')",
+        "get_ipython().kernel._allow_stdin = True\nimport getpass\nget_ipython().kernel.raw_input('name? ')",
+        "1",
+        limits=SHORT,
+    )
+    assert statuses(run)[0] == "error" and run.cells[0].message.startswith("StdinNotImplementedError")
+    assert statuses(run)[1] in ("error", "timeout")
+    assert statuses(run)[2] == "ok"
+
+
+def test_work_folder_is_a_copy(either, tmp_path, printed):
+    work = tmp_path / "own"
+    (work / "data").mkdir(parents=True)
+    (work / "data" / "lengths.csv").write_text("0.3,0.2")
+    (tmp_path / "secret.txt").write_text("secret")
+    (work / "link.txt").symlink_to(tmp_path / "secret.txt")
+    (work / "folder").symlink_to(tmp_path)
+    run = either(
+        "print(open('data/lengths.csv').read())",
+        "import os; print(sorted(os.listdir('.')))",
+        "open('data/lengths.csv', 'w').write('x'); open('new.txt', 'w').write('x'); import os; os.mkdir('sub')",
+        workdir=work,
+    )
+    assert printed(run, 0) == "0.3,0.2"
+    assert printed(run, 1) == "['data']"
+    assert run.cells[2].status == "ok"
+    assert (work / "data" / "lengths.csv").read_text() == "0.3,0.2"
+    assert not (work / "new.txt").exists()
+
+
+def test_works_from_several_threads_and_inside_an_event_loop(sandboxed, printed):
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        runs = list(pool.map(lambda number: sandboxed(f"print({number})"), range(4)))
+    assert [printed(run, 0) for run in runs] == ["0", "1", "2", "3"]
+
+    async def from_a_server():
+        return sandboxed("print('served')")
+
+    assert printed(asyncio.run(from_a_server()), 0) == "served"
+
+
+def test_cancel_runs_ends_the_runs_of_other_threads(sandboxed, alive):
+    with concurrent.futures.ThreadPoolExecutor(1) as pool:
+        future = pool.submit(sandboxed, "import subprocess; subprocess.run(['sleep', '71.4'])")
+        while not alive("sleep 71.4"):
+            assert not future.done()
+            time.sleep(0.05)
+        sandbox.cancel_runs()
+        with pytest.raises(asyncio.CancelledError):
+            future.result(timeout=30)
+    assert not alive("sleep 71.4")
+
+
+def test_an_interrupt_kills_the_kernel_and_cleans_up(needs_sandbox, tmp_path, alive):
+    script = """
+import nbformat, pathlib, sys
+from autograder import sandbox
+cell = nbformat.v4.new_code_cell("import subprocess; subprocess.run(['sleep', '72.4'])")
+try:
+    sandbox.run_notebook(nbformat.v4.new_notebook(cells=[cell]), workdir=pathlib.Path(sys.argv[1]))
+except KeyboardInterrupt:
+    sys.exit(42)
+"""
+    (tmp_path / "work").mkdir()
+    (tmp_path / "tmp").mkdir()
+    process = subprocess.Popen(
+        [sys.executable, "-c", script, str(tmp_path / "work")], env={**os.environ, "TMPDIR": str(tmp_path / "tmp")}
+    )
+    while not alive("sleep 72.4"):
+        assert process.poll() is None
+        time.sleep(0.05)
+    assert list((tmp_path / "tmp").iterdir())
+    process.send_signal(signal.SIGINT)
+    assert process.wait(timeout=30) == 42
+    assert not alive("sleep 72.4")
+    assert not list((tmp_path / "tmp").iterdir())
+
+
+def test_a_killed_grader_takes_its_kernels_along(needs_sandbox, tmp_path, alive):
+    script = """
+import nbformat, pathlib, sys
+from autograder import sandbox
+cell = nbformat.v4.new_code_cell("import subprocess; subprocess.run(['sleep', '73.4'])")
+sandbox.run_notebook(nbformat.v4.new_notebook(cells=[cell]), workdir=pathlib.Path(sys.argv[1]))
+"""
+    process = subprocess.Popen([sys.executable, "-c", script, str(tmp_path)])
+    while not alive("sleep 73.4"):
+        assert process.poll() is None
+        time.sleep(0.05)
+    process.kill()
+    process.wait()
+    for _ in range(100):
+        if not alive("sleep 73.4"):
+            break
+        time.sleep(0.1)
+    assert not alive("sleep 73.4")
+
+
+def test_nothing_is_left_open_or_lying_about(sandboxed, tmp_path, monkeypatch):
+    folders = []
+    original = provisioner.private_folder
+    monkeypatch.setattr(provisioner, "private_folder", lambda: folders.append(original()) or folders[-1])
+    sandboxed("1")
+    before = len(os.listdir("/proc/self/fd"))
+    for _ in range(3):
+        sandboxed("import os; os._exit(0)", "1")
+    assert len(folders) >= 7
+    assert not any(folder.exists() for folder in folders)
+    assert len(os.listdir("/proc/self/fd")) <= before
+
+
+def test_without_a_sandbox_it_refuses(monkeypatch, tmp_path):
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("1")])
+    monkeypatch.setattr(sandbox.run, "available", lambda: "bubblewrap (bwrap) is not installed; apt-get it")
+    with pytest.raises(sandbox.SandboxUnavailable, match="not installed"):
+        sandbox.run_notebook(notebook, workdir=tmp_path)
+    with pytest.raises(ValueError, match="bwrap"):
+        sandbox.run_notebook(notebook, workdir=tmp_path, mode="docker")
+
+
+def test_a_kernel_that_does_not_start_is_not_the_students_fault(run_cells, monkeypatch):
+    monkeypatch.setattr(client, "START_SECONDS", 5)
+    monkeypatch.setattr(provisioner.sys, "executable", "/bin/false")
+    with pytest.raises(sandbox.KernelStartError):
+        run_cells("1", mode="none")
