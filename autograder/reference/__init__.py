@@ -1,5 +1,29 @@
-"""Reference solver: modified DH tables, direct and inverse models of the course's robots."""
+"""Reference solver: modified DH tables, direct and inverse models of the course's robots.
 
+``DHTable`` describes a robot, ``robots`` holds those of the documents. Lengths in metres,
+angles in radians, arrays batch-first: q (..., n), poses (..., 4, 4).
+"""
+
+from . import catalogue as robots
+from .catalogue import Robot
+from .singularities import jacobian, mobility, rank
+from .solutions import STATUS, Batch, Nearest, Solutions
 from .tables import ClassicTable, DHRow, DHTable
+from .urdf import UrdfJoint, table_from_urdf
 
-__all__ = ["ClassicTable", "DHRow", "DHTable"]
+__all__ = [
+    "STATUS",
+    "Batch",
+    "ClassicTable",
+    "DHRow",
+    "DHTable",
+    "Nearest",
+    "Robot",
+    "Solutions",
+    "UrdfJoint",
+    "jacobian",
+    "mobility",
+    "rank",
+    "robots",
+    "table_from_urdf",
+]

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .inverse import Answer, InverseModel, JointMap
+from .inverse import Answer, InverseModel, JointMap, outside_limits, translations
 from .planar import (
     FOLDED,
     FOLDED_LINE,
@@ -244,12 +244,15 @@ class Wrist:
         if not square or not meeting or chain.prismatic[first : first + 3].any():
             raise ValueError("a spherical wrist has three revolute axes, square, in one point")
         s4, s5 = np.sign(chain.sin_alpha[[j, k]])
-        hand = np.linalg.inv(chain.tail(k))
-        hand[2, 3] -= chain.fixed[k]  # back along axis 6 to the wrist centre
-        hand = np.diag([1.0, -s4 * s5, -s4 * s5, 1.0]) @ hand
+        centre_to_tool = np.diag([1.0, -s4 * s5, -s4 * s5, 1.0])
+        centre_to_tool[2, 3] = -s4 * s5 * chain.fixed[k]  # d6, along axis 6
         return cls(
-            chain.cos_alpha[i], chain.sin_alpha[i], (-s4, -s4 * s5),
-            np.linalg.inv(hand), JointMap.of(chain), first,
+            chain.cos_alpha[i],
+            chain.sin_alpha[i],
+            (-s4, -s4 * s5),
+            np.linalg.inv(centre_to_tool @ chain.tail(k)),
+            JointMap.of(chain),
+            first,
         )
 
     def solve(self, x, y, z, near):
@@ -332,7 +335,6 @@ class WristedArm(InverseModel):
         self.map = JointMap.of(chain)
         self.wrist = Wrist.of(table, first=3)
         self.line = self.wrist.line
-        self._identity = np.array_equal(self.wrist.to_hand, np.eye(4))
         if not (self.arm.upper and self.arm.fore):
             raise ValueError("an elbow arm needs an upper arm and a forearm")
 
@@ -414,15 +416,3 @@ class WristAlone(InverseModel):
         if cause == LIMITED:
             return outside_limits(miss)
         return f"the wrist centre is {miss:.3g} m away from where the three axes meet"
-
-
-def translations(points) -> np.ndarray:
-    """Poses (N, 4, 4) without rotation from points (N, m), m = 2 or 3, metres."""
-    poses = np.tile(np.eye(4), (len(points), 1, 1))
-    poses[:, : points.shape[1], 3] = points
-    return poses
-
-
-def outside_limits(miss: float) -> str:
-    """Reason in words when only joint limits stand in the way."""
-    return f"every posture is outside the joint limits, the best one by {miss:.3g} (rad or m)"

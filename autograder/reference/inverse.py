@@ -335,3 +335,15 @@ class InverseModel:
         best[np.isinf(best)] = 0.0
         batch.q[rows, i] = wrap(at_i + best)
         batch.q[rows, j] = wrap(at_j - sign * best)
+
+
+def translations(points) -> np.ndarray:
+    """Poses (N, 4, 4) without rotation from points (N, m), m = 2 or 3, metres."""
+    poses = np.tile(np.eye(4), (len(points), 1, 1))
+    poses[:, : points.shape[1], 3] = points
+    return poses
+
+
+def outside_limits(miss: float) -> str:
+    """Reason in words when only joint limits stand in the way."""
+    return f"every posture is outside the joint limits, the best one by {miss:.3g} (rad or m)"

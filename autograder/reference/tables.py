@@ -9,7 +9,7 @@ Lengths in metres, angles in radians, entries numeric or symbolic.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from numbers import Real
 
@@ -90,6 +90,8 @@ class DHTable:
         needed when an entry holds a symbolic offset (``r3 + r30``) or couples joints.
     base, tool: constant 4x4 transforms before the first and after the last frame.
     limits: one (lower, upper) pair per joint, radians or metres; None for no limit.
+    values: numbers for the letters of the table (lengths, offsets), by name. Symbolic results
+        keep the letters, numeric ones use the values.
 
     Raises ValueError, in words, for a wrong number of columns, an entry that is not a number
     or expression, sigma outside {0, 1}, or a joint entry that is not a sum of joints and
@@ -102,6 +104,7 @@ class DHTable:
     base: sp.ImmutableMatrix | None = None
     tool: sp.ImmutableMatrix | None = None
     limits: tuple[tuple[float, float], ...] | None = None
+    values: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self):
         rows = tuple(_row(row, i) for i, row in enumerate(self.rows, start=1))
@@ -169,7 +172,9 @@ class DHTable:
 
     @cached_property
     def chain(self) -> _forward.Chain:
-        """The table as numbers. Raises ValueError naming the lengths that have no value."""
+        """The table as numbers. Raises ValueError naming the letters that have no value."""
+        if self.values:
+            return self.at(self.values).chain
         matrix, offsets = self._coupling
         free = set().union(
             *(row.a.free_symbols | row.alpha.free_symbols for row in self.rows),
@@ -215,6 +220,7 @@ class DHTable:
             joints=tuple(joint for joint in self.joints if joint not in chosen),
             base=self.base.subs(chosen),
             tool=self.tool.subs(chosen),
+            values={name: v for name, v in self.values.items() if name not in by_name},
         )
 
     def to_classic(self) -> ClassicTable:
@@ -226,7 +232,9 @@ class DHTable:
             for row, (a, alpha) in zip(self.rows, shifted)
         )
         base = self.base * trans_x(first.a) * rot_x(first.alpha)
-        return ClassicTable(rows, self.name, self.joints, sp.ImmutableMatrix(base), self.tool)
+        return ClassicTable(
+            rows, self.name, self.joints, sp.ImmutableMatrix(base), self.tool, self.values
+        )
 
     @classmethod
     def from_classic(cls, rows: Iterable, **options) -> DHTable:
@@ -274,11 +282,17 @@ class ClassicTable:
     joints: tuple[sp.Symbol, ...]
     base: sp.ImmutableMatrix
     tool: sp.ImmutableMatrix
+    values: Mapping[str, float]
 
     def to_modified(self) -> DHTable:
         """The same robot in modified DH."""
         return DHTable.from_classic(
-            self.rows, name=self.name, joints=self.joints, base=self.base, tool=self.tool
+            self.rows,
+            name=self.name,
+            joints=self.joints,
+            base=self.base,
+            tool=self.tool,
+            values=self.values,
         )
 
 

@@ -1,0 +1,51 @@
+"""Direct models as rotations about centres (EPFL slides): no frames, only fixed points.
+
+Every joint turns the whole arm about a point that is known in the reference posture. The
+matrices multiply with the last joint nearest to the point, so that each turn finds its
+centre still in the reference position: ``P = K1 K2 ... Kn P0``.
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from .elementary import rot_x, rot_z
+
+
+def rotation_about(turn: sp.Matrix, centre) -> sp.Matrix:
+    """A rotation about a centre instead of the origin: [R, p - R p; 0, 1].
+
+    turn: 3x3 rotation with centre (3,), or 2x2 with centre (2,); metres. Returns 4x4 or 3x3.
+    """
+    size = turn.rows
+    centre = sp.Matrix(centre)
+    shift = (centre - turn * centre).applyfunc(lambda e: sp.factor(e, deep=False))
+    return turn.row_join(shift).col_join(sp.Matrix([[0] * size + [1]]))
+
+
+def scara_centres(joints, lengths) -> list[sp.Matrix]:
+    """The planar 3x3 rotations of the SCARA: joints (t1, t2, t4), lengths (L1, L2).
+
+    Their product times [L1 + L2 + L4, 0, 1] is the tool point.
+    """
+    (l1, l2), reached, matrices = lengths, sp.S.Zero, []
+    for joint, length in zip(joints, (l1, l2, 0)):
+        turn = rot_z(joint)[:2, :2]
+        matrices.append(rotation_about(turn, [reached, 0]))
+        reached += length
+    return matrices
+
+
+def epfl_centres(joints, D3, L2, D4) -> list[sp.Matrix]:
+    """[K1, ..., K6] of the six-axis arm, 4x4; joints t1 to t6, lengths in metres.
+
+    In the reference posture the axes point along z, x, x, z, x, z through the origin, the
+    origin, [0, 0, L2], [D3, 0, .], [., 0, L2 + D4] and [D3, 0, .]. The figure with the sense
+    of rotation is lost: positive about +z and +x, as in the printed K5 and K6.
+    """
+    centres = [[0, 0, 0], [0, 0, 0], [0, 0, L2], [D3, 0, 0], [0, 0, L2 + D4], [D3, 0, 0]]
+    turns = (rot_z, rot_x, rot_x, rot_z, rot_x, rot_z)
+    return [
+        rotation_about(turn(joint)[:3, :3], centre)
+        for turn, joint, centre in zip(turns, joints, centres)
+    ]

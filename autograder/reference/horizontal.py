@@ -1,0 +1,271 @@
+"""Inverse models of arms that move in a plane: planar arms with n joints and the SCARA.
+
+Sources: two-link arm and SCARA of the EPFL slides, SCARA of the MECA 953 slides, planar
+tables of the DH-m slides (Romanian), s600 tutorial.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .inverse import Answer, InverseModel, JointMap, outside_limits, translations
+from .planar import (
+    FOLDED,
+    FREE_CHAIN,
+    FREE_PLANE,
+    STRETCHED,
+    TOUCHING,
+    two_link,
+    unit,
+    wrap,
+)
+from .solutions import BEYOND, LIMITED, NOTHING, OFF, SHORT, TILTED
+from .tables import DHTable
+
+
+class PlanarArm(InverseModel):
+    """n >= 2 revolute joints with parallel axes, at most 2 solutions or a family.
+
+    n = 2: the task is the point (x, y); the orientation of a pose is not looked at, two
+    joints cannot choose it. n >= 3: the task is (x, y, phi), phi the direction of the last
+    link, and a pose must not be tilted.
+    Branches in order: bend of the last two links in [0, pi] ("elbow down" when the target is
+    to the right), then in [-pi, 0].
+    n > 3: a family of n - 3 dimensions. Its representative keeps q1 .. q_{n-3} at their
+    wished values where the rest of the arm can then reach the target, and otherwise moves
+    them, one after the other, by as little as needed.
+    """
+
+    branches = 2
+
+    def __init__(self, table: DHTable):
+        """Raises ValueError when the table is not a planar arm with positive lengths."""
+        chain = table.chain
+        n = chain.joints
+        straight = (chain.cos_alpha[1:] > 1.0 - 1e-12).all() and not chain.prismatic[:n].any()
+        tail = chain.tail(n - 1)
+        if n < 2 or not straight or abs(tail[2, 2] - 1.0) > 1e-12:
+            raise ValueError("a planar arm has two or more revolute joints with parallel axes")
+        self.limits = table.limits
+        self.joints = n
+        self.revolute = list(range(n))
+        self.map = JointMap.of(chain)
+        height = chain.fixed[1:n].sum() + tail[2, 3]
+        plane = chain.base @ chain.row_matrix(0, 0.0)
+        plane[:3, 3] += height * plane[:3, 2]
+        self._to_plane = np.linalg.inv(plane)
+        self._tip = complex(tail[0, 3], tail[1, 3])
+        self._tip_turn = np.arctan2(tail[1, 0], tail[0, 0])
+        if n == 2:
+            self.task = "x, y"
+            self.links = np.array([chain.a[1], abs(self._tip)])
+        else:
+            self.task = "x, y, phi"
+            self.links = chain.a[1:n]
+        if (self.links <= 0).any():
+            raise ValueError("the links of a planar arm have positive lengths")
+        self._spare = max(n - 3, 0)
+        self.anchors = {FREE_PLANE: (self._spare,)}
+        if self._spare:
+            self.anchors[FREE_CHAIN] = tuple(range(self._spare))
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Inner and outer radius, metres: of the tip (n = 2) or of the last joint (n >= 3)."""
+        return _reach(self.links)
+
+    def pose(self, task):
+        if task.shape[1] != (2 if self.joints == 2 else 3):
+            raise ValueError(f"expected the coordinates {self.task}, found {task.shape[1]} numbers")
+        poses = translations(task[:, :2])
+        if self.joints > 2:
+            _turn_about_z(poses, task[:, 2])
+        return poses
+
+    def kernel(self, poses, near, tol):
+        flat = self._to_plane @ poses
+        target, height, tilt, heading = _flattened(flat)
+        off = np.abs(height)
+        bend_offset = np.angle(self._tip) if self.joints == 2 else 0.0
+        if self.joints == 2:
+            tilt = np.zeros_like(tilt)
+        else:
+            heading = heading - self._tip_turn
+            target = target - self._tip * unit(heading)
+        least, most = self.reach
+        beyond, short = np.abs(target) - most, least - np.abs(target)
+
+        q = np.empty((self.joints, 2, len(poses)))
+        rest, direction = target, np.zeros(len(poses))
+        for i in range(self._spare):
+            wished = direction + self.map.row(i, near)
+            placed = _placed(rest, self.links[i], _reach(self.links[i + 1 :]), wished)
+            q[i] = self.map.joint(i, placed - direction)
+            rest, direction = rest - self.links[i] * unit(placed), placed
+        i = self._spare
+        arm = two_link(rest, *self.links[i:], direction + self.map.row(i, near), tol)
+        q[i] = self.map.joint(i, arm.first - direction)
+        q[i + 1] = self.map.joint(i + 1, arm.bend - bend_offset)
+        if self.joints > 2:
+            q[-1] = self.map.joint(self.joints - 1, heading - arm.first - arm.bend)
+
+        marks = arm.marks
+        if self._spare:
+            # The last two links may lie straight by choice, which is no limit of the arm.
+            folded = (short >= -TOUCHING * most) & (least > 0)
+            limit = np.where(folded, FOLDED, FREE_CHAIN)
+            limit = np.where(beyond >= -TOUCHING * most, STRETCHED, limit)
+            marks = (marks & FREE_PLANE) | limit.astype(np.uint8)
+        failing = [tilt > tol, off > tol, beyond > tol, short > tol]
+        return Answer(
+            q,
+            arm.valid & ~np.any(failing, axis=0),
+            np.stack([marks, marks]),
+            np.select(failing, [tilt, off, beyond, short], 0.0),
+            np.select(failing, [TILTED, OFF, BEYOND, SHORT], NOTHING),
+        )
+
+    def label(self, branch, marks):
+        return _elbow(branch, marks, ("down", "up"))
+
+    def unreachable(self, cause, miss):
+        point = "point" if self.joints == 2 else "last joint"
+        return _out_of_plane_reach(point, self.reach, cause, miss)
+
+
+class Scara(InverseModel):
+    """Four joints with parallel axes: revolute, revolute, prismatic, revolute.
+
+    The task is (x, y, z, omega), omega the direction of the tool's x axis in the plane; a
+    pose must keep the tool upright. Branches in order: second angle in [0, pi] ("elbow
+    right", seen from above towards the target), then in [-pi, 0] ("elbow left").
+    """
+
+    task = "x, y, z, omega"
+    joints = 4
+    branches = 2
+    revolute = [0, 1, 3]
+    anchors = {FREE_PLANE: (0,)}
+
+    def __init__(self, table: DHTable):
+        """Raises ValueError when the table is not a SCARA (joint 4 may point downwards)."""
+        chain = table.chain
+        kinds = [False, False, True, False]
+        upright = chain.cos_alpha[1:3] > 1.0 - 1e-12
+        opposite = np.abs(chain.sin_alpha[3:]) < 1e-12
+        if list(chain.prismatic[:4]) != kinds or not upright.all() or not opposite.all():
+            raise ValueError("a SCARA has parallel axes: revolute, revolute, prismatic, revolute")
+        if chain.joints != 4 or chain.a[3] or (chain.a[1:3] <= 0).any():
+            raise ValueError("a SCARA has two links of positive length")
+        self.limits = table.limits
+        self.links = chain.a[1:3]
+        self.map = JointMap.of(chain)
+        self._down = np.sign(chain.cos_alpha[3])  # -1 when axis 4 points against axis 1
+        self._to_base = np.linalg.inv(chain.base @ chain.row_matrix(0, 0.0))
+        self._to_flange = np.linalg.inv(chain.tail(3))
+        self._quill_turn = chain.fixed[2]
+        self._height = chain.fixed[1] + self._down * chain.fixed[3]
+        # The tool at all joints zero gives its posture at omega = 0.
+        self._home = chain.forward(np.zeros(4))
+        turn = np.arctan2(self._home[1, 0], self._home[0, 0])
+        self._home[:3, :3] = _about_z(-turn) @ self._home[:3, :3]
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Inner and outer radius of axis 4 about axis 1, metres."""
+        return _reach(self.links)
+
+    def pose(self, task):
+        if task.shape[1] != 4:
+            raise ValueError(f"expected the coordinates {self.task}, found {task.shape[1]} numbers")
+        poses = translations(task[:, :3])
+        _turn_about_z(poses, task[:, 3])
+        poses[:, :3, :3] = poses[:, :3, :3] @ self._home[:3, :3]
+        return poses
+
+    def kernel(self, poses, near, tol):
+        flange = self._to_base @ poses @ self._to_flange
+        target, height, tilt, heading = _flattened(flange, self._down)
+        arm = two_link(target, *self.links, self.map.row(0, near), tol)
+        q = np.empty((4, 2, len(poses)))
+        q[0] = self.map.joint(0, arm.first)
+        q[1] = self.map.joint(1, arm.bend)
+        q[2] = self.map.joint(2, height - self._height)
+        last = heading - arm.first - arm.bend - self._quill_turn
+        q[3] = self.map.joint(3, self._down * last)
+        failing = [tilt > tol, arm.beyond > tol, arm.short > tol]
+        return Answer(
+            q,
+            arm.valid & ~failing[0],
+            np.stack([arm.marks, arm.marks]),
+            np.select(failing, [tilt, arm.beyond, arm.short], 0.0),
+            np.select(failing, [TILTED, BEYOND, SHORT], NOTHING),
+        )
+
+    def label(self, branch, marks):
+        return _elbow(branch, marks, ("right", "left"))
+
+    def unreachable(self, cause, miss):
+        return _out_of_plane_reach("tool axis", self.reach, cause, miss)
+
+
+def _flattened(frames, up: float = 1.0):
+    """Target (complex), height, tilt of the z axis from up and heading of frames (N, 4, 4)."""
+    target = frames[:, 0, 3] + 1j * frames[:, 1, 3]
+    tilt = np.arctan2(np.hypot(frames[:, 0, 2], frames[:, 1, 2]), up * frames[:, 2, 2])
+    heading = np.arctan2(frames[:, 1, 0], frames[:, 0, 0])
+    return target, frames[:, 2, 3], tilt, heading
+
+
+def _reach(links) -> tuple[float, float]:
+    """Inner and outer radius a chain of links can reach, metres."""
+    return max(0.0, 2.0 * max(links) - sum(links)), sum(links)
+
+
+def _placed(target, link, reach, wished):
+    """Direction of a link, as near to the wished one as the rest of the arm allows.
+
+    The end of the link must lie between the radii ``reach`` from the target; by the law of
+    cosines that bounds the angle between link and target from below and from above.
+    """
+    r, towards = np.abs(target), np.angle(target)
+    least, most = (
+        2.0 * np.arctan2(
+            np.sqrt(np.maximum(d**2 - (link - r) ** 2, 0.0)),
+            np.sqrt(np.maximum((link + r) ** 2 - d**2, 0.0)),
+        )
+        for d in reach
+    )
+    aside = wrap(wished - towards)
+    return towards + np.copysign(np.clip(np.abs(aside), least, most), aside)
+
+
+def _elbow(branch, marks, sides) -> str:
+    if marks & STRETCHED:
+        return "arm stretched"
+    if marks & (FOLDED | FREE_PLANE):
+        return "arm folded"
+    return f"elbow {sides[branch]}"
+
+
+def _out_of_plane_reach(point, reach, cause, miss) -> str:
+    least, most = reach
+    texts = {
+        BEYOND: f"the {point} is {miss:.3g} m beyond the reach {most:.3g} m",
+        SHORT: f"the {point} is {miss:.3g} m inside the inner limit {least:.3g} m",
+        TILTED: f"the pose is tilted by {miss:.3g} rad, which parallel axes cannot do",
+        OFF: f"the pose is {miss:.3g} m out of the arm's plane",
+        LIMITED: outside_limits(miss),
+    }
+    return texts[cause]
+
+
+def _about_z(angle: float) -> np.ndarray:
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def _turn_about_z(poses, angles) -> None:
+    poses[:, 0, 0] = poses[:, 1, 1] = np.cos(angles)
+    poses[:, 1, 0] = np.sin(angles)
+    poses[:, 0, 1] = -poses[:, 1, 0]
