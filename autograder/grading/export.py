@@ -30,9 +30,13 @@ class GradesAndNotes(ExportPlugin):
             writer = csv.DictWriter(file, columns, restval="")
             writer.writeheader()
             for assignment in assignments:
-                for student in gradebook.students:
+                for student in sorted(gradebook.students, key=_by_name):
                     if not students or student.id in students:
                         writer.writerow({key: _cell(value) for key, value in _row(gradebook, assignment, student).items()})
+
+
+def _by_name(student: Student) -> tuple[str, str, str]:
+    return student.last_name or "", student.first_name or "", student.id
 
 
 def _row(gradebook: Gradebook, assignment: Assignment, student: Student) -> dict:

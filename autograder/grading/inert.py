@@ -11,6 +11,7 @@ from jinja2 import pass_context
 from nbconvert.filters.markdown_mistune import IPythonRenderer, MarkdownWithMath
 from nbformat.notebooknode import NotebookNode
 from nbformat.v4 import new_output
+from pygments.token import STANDARD_TYPES
 
 # nbconvert's Markdown parser needs seconds for some texts of this length, and minutes for longer ones.
 MAX_MARKDOWN = 20_000
@@ -97,8 +98,8 @@ _TAGS = frozenset(
     "table tbody td th thead tr u ul".split()
 )
 _LINK = re.compile(r"(https?://|mailto:|#)\S*\Z")
-_IMAGE = re.compile(r"(data:image/(png|jpeg|svg\+xml);base64,[A-Za-z0-9+/=\s]*|\w[\w./-]*)\Z")
-_PYGMENTS = re.compile(r"(highlight|[a-z][a-z0-9]{0,2})\Z")
+_IMAGE = re.compile(r"data:image/(png|jpeg);base64,[A-Za-z0-9+/=\s]*\Z")
+_CODE_CLASSES = frozenset(STANDARD_TYPES.values()) - {""} | {"highlight"}
 
 
 def _allowed(tag: str, name: str, value: str) -> bool:
@@ -107,5 +108,5 @@ def _allowed(tag: str, name: str, value: str) -> bool:
     if tag == "img":
         return name == "alt" or (name == "src" and bool(_IMAGE.match(value)))
     if name == "class":
-        return tag in ("div", "span") and bool(_PYGMENTS.match(value))
+        return tag in ("div", "span") and value in _CODE_CLASSES
     return name in ("title", "align") or (tag == "ol" and name == "start")

@@ -72,7 +72,7 @@ def grade(course: Course, exercise: str, students: Sequence[str], jobs: int, for
         try:
             _store(course, student, future.result())
         except Exception as error:
-            failures[student] = f"could not be judged: {error if isinstance(error, CourseError) else repr(error)}"
+            failures[student] = str(error) if isinstance(error, CourseError) else f"could not be run: {error!r}"
         progress(student)
     with Gradebook(course.app.coursedir.db_url, course.app.coursedir.course_id) as gradebook:
         return [
@@ -102,7 +102,10 @@ def _run(course: Course, runner: SandboxExecute, student: str, exercise: str, na
 def _store(course: Course, student: str, executions: dict[tuple[str, str], Execution]) -> None:
     """Judge what came out of the sandbox, store it in the gradebook and write the feedback page."""
     whose = {"coursedir": course.app.coursedir, "parent": course.app, "students": (student,), "force": True}
-    convert(SubmissionAutograde(executions=executions, **whose))
+    try:
+        convert(SubmissionAutograde(executions=executions, **whose))
+    except CourseError as reason:
+        raise CourseError(f"could not be judged: {reason}") from None
     try:
         convert(FeedbackPages(**whose))
     except CourseError as reason:

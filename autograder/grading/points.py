@@ -14,7 +14,7 @@ def points(share: float, maximum: float) -> float:
     """
     if not 0 <= share <= 1:
         raise ValueError(f"a share of the points must lie between 0 and 1, found {share}")
-    return min(round(share * maximum, 2), maximum)
+    return maximum if share == 1 else min(round(share * maximum, 2), maximum)
 
 
 def comment(note: str) -> str:

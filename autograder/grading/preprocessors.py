@@ -82,7 +82,7 @@ class JudgeAnswers(NbGraderPreprocessor):
         earned = points(verdict.share, float(cell.metadata.nbgrader["points"]))
         cell.outputs = [
             new_output("display_data", data={"text/markdown": verdict.feedback, "text/plain": verdict.feedback}),
-            new_output("execute_result", data={"text/plain": f"{earned:g}"}, execution_count=cell.execution_count),
+            new_output("execute_result", data={"text/plain": str(earned)}, execution_count=cell.execution_count),
         ]
         cell.metadata["autograder"] = {"note": verdict.note, "share": verdict.share}
         if evidence.trouble:

@@ -5,6 +5,7 @@ import os
 import shutil
 from copy import deepcopy
 from pathlib import Path
+from types import SimpleNamespace
 
 import nbformat
 import pytest
@@ -86,6 +87,14 @@ def answered(released, **answers):
         if source is not None:
             cell(nb, f"{check}-answer").source = source
     return nb
+
+
+@pytest.fixture(scope="session")
+def small():
+    """The helpers of this file, by name."""
+    return SimpleNamespace(
+        CHECKS=CHECKS, ANSWERS=ANSWERS, T04=T04, REPOSITORY=REPOSITORY, solution=solution, cell=cell, answered=answered, hand_in=hand_in
+    )
 
 
 @pytest.fixture(scope="session")

@@ -1,0 +1,93 @@
+"""What students wrote can be looked at and does nothing."""
+
+import re
+
+import pytest
+from nbformat.v4 import new_output
+
+from autograder.grading.inert import inert_outputs, markdown2html, terminal_text
+from autograder.grading.points import comment, note_of, points
+
+ATTACKS = [
+    "<script>alert(1)</script>",
+    "<img src=x onerror=alert(1)>",
+    "<svg onload=alert(1)></svg>",
+    "[x](javascript:alert(1))",
+    "[x](JaVaScRiPt:alert(1))",
+    "[x](data:text/html;base64,PHNjcmlwdD4=)",
+    '<a href="java&#10;script:alert(1)">x</a>',
+    "![x](javascript:alert(1))",
+    '<iframe src="https://example.org"></iframe>',
+    '<form action="https://example.org"><input name="x"></form>',
+    '<div style="position:fixed;inset:0" id="submit" class="btn">x</div>',
+    '<style>body{display:none}</style>',
+    '<math><mtext></p><style><img src="</style><img src=1 onerror=alert(1)>">',
+    "$x<script>alert(1)</script>$",
+    "$$\\begin{a}<img src=x onerror=alert(1)>\\end{a}$$",
+    "```python\n</pre><script>alert(1)</script>\n```",
+    "![x](attachment:missing.png)",
+    "<base href='https://example.org'><meta http-equiv=refresh content=0><link rel=stylesheet href=x>",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("text", ATTACKS)
+def test_markdown_cannot_act(text):
+    page = markdown2html({}, text)
+    tags = re.findall(r"<\s*([a-zA-Z]+)([^>]*)>", page)
+    assert not {name.lower() for name, _ in tags} & {"script", "svg", "iframe", "form", "input", "style", "base", "meta", "link", "math"}
+    for name, attributes in tags:
+        assert not re.search(r"\bon\w+\s*=|javascript:|data:text|style=|\bid=|btn", attributes, re.I), (name, attributes)
+
+
+def test_markdown_stays_readable():
+    page = markdown2html({}, "# Title\n\n**bold** $a<b$ and `code`\n\n| a | b |\n|---|---|\n| 1 | 2 |\n\n```python\nx = 1\n```")
+    for piece in ("<h1>Title</h1>", "<strong>bold</strong>", "$a&lt;b$", "<code>code</code>", "<td>1</td>", '<span class="n">x</span>'):
+        assert piece in page
+
+
+def test_an_attached_picture_is_shown():
+    cell = {"attachments": {"a.png": {"image/png": "QUJD"}}}
+    assert '<img src="data:image/png;base64,QUJD"' in markdown2html({"cell": cell}, "![a](attachment:a.png)")
+
+
+def test_long_markdown_is_shown_as_text():
+    assert markdown2html({}, "$$" * 20_000).startswith("<pre>$$")
+
+
+def test_outputs_keep_text_formulas_and_pictures_only():
+    html = {"text/html": "<script>1</script>", "application/javascript": "alert(1)", "text/plain": "x", "image/png": "QUJD\n"}
+    bad = {"image/png": '"><script>', "image/svg+xml": "<svg/>", "application/vnd.jupyter.widget-view+json": {"model_id": "1"}}
+    outputs = [
+        new_output("display_data", data=html, metadata={"text/html": {"isolated": True}}),
+        new_output("execute_result", data=bad, execution_count=99),
+        new_output("display_data", data={"text/html": "<b>only</b>"}),
+        new_output("stream", name="stderr", text=["a", "b"]),
+        {"output_type": "update_display_data", "data": {}},
+        {"output_type": "error", "ename": 3, "evalue": "e", "traceback": "no list"},
+    ]
+    kept = inert_outputs(outputs, 4)
+    assert [dict(output.data) for output in kept[:2]] == [{"text/plain": "x", "image/png": "QUJD\n"}, {"image/svg+xml": "<svg/>"}]
+    assert kept[0].metadata == {} and kept[1].execution_count == 4
+    assert kept[2].text == "ab" and kept[3].traceback == [] and len(kept) == 4
+
+
+def test_terminal_text_holds_no_control():
+    assert terminal_text("a\x1b[2J\nb\u202ec\x07\x9b") == "a [2J b c"
+    assert terminal_text("x" * 300, 10) == "xxxxxxx..."
+
+
+@pytest.mark.parametrize("share, most, expected", [(0, 3, 0), (1, 3, 3), (0.5, 3, 1.5), (1 / 3, 2, 0.67), (1, 0.1 + 0.2, 0.1 + 0.2)])
+def test_points_follow_the_share(share, most, expected):
+    assert points(share, most) == expected
+    assert 0 <= points(share, most) <= most
+
+
+@pytest.mark.parametrize("share", [-0.1, 1.01, float("nan"), float("inf")])
+def test_no_other_share_becomes_points(share):
+    with pytest.raises(ValueError, match="between 0 and 1"):
+        points(share, 3)
+
+
+def test_a_note_survives_the_gradebook():
+    assert note_of(comment("sign_of_d2")) == "sign_of_d2"
+    assert note_of("No response.") is None and note_of(None) is None and note_of("note: <b>") is None
