@@ -63,7 +63,7 @@ def _parser() -> argparse.ArgumentParser:
     grade = command(
         "grade", _grade, "Grade the submissions in submitted/*/EXERCISE.", "autograder grade scara --jobs 4 --cell-seconds 60"
     )
-    grade.add_argument("exercise")
+    grade.add_argument("exercise", nargs="*", help="exercises to grade (default: all that were handed in)")
     grade.add_argument("--student", action="append", default=[], metavar="ID", help="only this student; may be repeated")
     grade.add_argument("--force", action="store_true", help="also grade what has not changed since it was graded")
     grade.add_argument("--jobs", type=_positive, metavar="N", help="notebooks that run at the same time (default: one per core)")
@@ -122,12 +122,13 @@ def _grade(options) -> int:
 
     given = {name.replace("-", "_"): getattr(options, name.replace("-", "_")) for name in LIMITS} | {"mode": options.sandbox}
     course = _course(options, Config(SandboxExecute={name: value for name, value in given.items() if value is not None}))
-    course.choose(options.exercise)
-    students = course.chosen_students(options.exercise, options.student)
+    submissions = course.submissions(options.exercise, options.student)
     if options.sandbox == "none":
         print("warning: no sandbox; students' code runs with your rights", file=sys.stderr)
-    with progress_bar(options.exercise, len(students)) as progress:
-        results = grade(course, options.exercise, students, options.jobs or os.cpu_count() or 1, options.force, progress)
+    jobs, results = options.jobs or os.cpu_count() or 1, []
+    for exercise, students in submissions.items():
+        with progress_bar(exercise, len(students)) as progress:
+            results += grade(course, exercise, students, jobs, options.force, progress)
     if options.json:
         for result in results:
             print(json.dumps(result.as_json()))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -62,15 +63,31 @@ class Course:
         submitted = self.step("submitted")
         return [name for name in student_names(submitted) if self.step("submitted", name, exercise).is_dir()]
 
-    def chosen_students(self, exercise: str, wanted: list[str]) -> list[str]:
-        """`wanted`, or everybody; `CourseError` lists who handed in if one of them did not."""
-        everybody = self.students(exercise)
-        for name in wanted:
-            if name not in everybody:
-                raise CourseError(f"{name!r} handed in nothing for {exercise}; handed in: {', '.join(everybody) or 'nobody'}")
+    def submissions(self, exercises: list[str], students: list[str]) -> dict[str, list[str]]:
+        """Who is to be graded, by exercise; an empty list means all exercises, or everybody.
+
+        Raises
+        ------
+        CourseError
+            If an exercise or a student does not exist, with those that do; if nobody handed in anything.
+        """
+        for exercise in exercises:
+            self.choose(exercise)
+        handed_in = {exercise: self.students(exercise) for exercise in exercises or self.exercises()}
+        everybody = sorted({name for names in handed_in.values() for name in names})
         if not everybody:
-            raise CourseError(f"nobody handed in anything: {self.step('submitted')}/*/{exercise} is empty")
-        return wanted or everybody
+            raise CourseError(f"nobody handed in anything: {self.step('submitted', '*', ' or '.join(handed_in))} is empty")
+        for name in students:
+            if name not in everybody:
+                raise CourseError(f"{name!r} handed in nothing for {' or '.join(handed_in)}; handed in: {', '.join(everybody)}")
+        wanted = {exercise: [name for name in names if not students or name in students] for exercise, names in handed_in.items()}
+        return {exercise: names for exercise, names in wanted.items() if names}
+
+    def unusable_folders(self, exercise: str) -> list[str]:
+        """Names of submission folders that hold line breaks or other characters that nbgrader cannot work with."""
+        step = self.step("submitted")
+        names = [entry.name for entry in os.scandir(step) if entry.is_dir() and not entry.name.isprintable()] if step.is_dir() else []
+        return sorted(name for name in names if (step / name / exercise).is_dir())
 
 
 def open_course(root: Path, config: Config | None = None, verbose: bool = False) -> Course:

@@ -6,13 +6,14 @@ they bring back goes through the very converter that ``nbgrader autograde`` uses
 
 from __future__ import annotations
 
-import contextlib
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from contextlib import closing
 
 import nbformat
-import psutil
 from nbgrader.api import Gradebook
+
+from autograder.sandbox import cancel_runs
 
 from .converters import (
     FeedbackPages,
@@ -25,6 +26,7 @@ from .converters import (
 )
 from .course import Course, CourseError, convert
 from .execution import Execution, execute
+from .inert import terminal_text
 from .preprocessors import SandboxExecute
 from .reading import fingerprint
 from .restore import restore
@@ -68,19 +70,25 @@ def grade(course: Course, exercise: str, students: Sequence[str], jobs: int, for
         return {(student, name): _run(course, runner, student, exercise, name) for name in names}
 
     failures: dict[str, str] = {}
-    for student, future in _run_ahead(run, [name for name in students if status[name] == "graded"], jobs):
-        try:
-            _store(course, student, future.result())
-        except Exception as error:
-            failures[student] = str(error) if isinstance(error, CourseError) else f"could not be run: {error!r}"
-        progress(student)
+    with closing(_run_ahead(run, [name for name in students if status[name] == "graded"], jobs)) as runs:
+        for student, future in runs:
+            try:
+                _store(course, student, future.result())
+            except Exception as error:
+                failures[student] = str(error) if isinstance(error, CourseError) else f"could not be run: {error!r}"
+            progress(student)
+    unusable = [_unusable(name, exercise) for name in course.unusable_folders(exercise)]
     with Gradebook(course.app.coursedir.db_url, course.app.coursedir.course_id) as gradebook:
-        return [
+        return unusable + [
             Result(student, exercise, "failed", remarks=(failures[student],))
             if student in failures
             else read_result(course, gradebook, student, exercise, status[student])
             for student in students
         ]
+
+
+def _unusable(folder: str, exercise: str) -> Result:
+    return Result(terminal_text(folder), exercise, "failed", remarks=("the folder's name holds control characters; rename it",))
 
 
 def _is_new(course: Course, student: str, exercise: str, names: list[str]) -> bool:
@@ -128,15 +136,5 @@ def _run_ahead(run: Callable[[str], dict], students: list[str], jobs: int) -> It
                     yield running.pop(future), future
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
-            _end_kernels(running)
+            cancel_runs()
             raise
-
-
-def _end_kernels(running: dict[Future, str]) -> None:
-    """Kill the kernels until no run is left; a run may start its kernel again once or twice."""
-    while True:
-        for process in psutil.Process().children(recursive=True):
-            with contextlib.suppress(psutil.Error):
-                process.kill()
-        if not wait(running, timeout=0.2).not_done:
-            return

@@ -63,13 +63,16 @@ def plain_bytes(path: Path, limit: int) -> bytes:
 
 
 def plain_files(folder: Path) -> Iterator[Path]:
-    """Regular files under `folder` in a stable order, links neither followed nor listed, at most `MAX_FILES`."""
-    left = MAX_FILES
+    """Regular files under `folder` that can be read, in a stable order, links neither followed nor listed.
+
+    At most `MAX_FILES`; folders that start with a dot are passed over.
+    """
+    left = 0 if folder.is_symlink() else MAX_FILES
     for place, folders, names in os.walk(folder, followlinks=False):
         folders[:] = sorted(name for name in folders if not name.startswith(".") and name != "__pycache__")
         for name in sorted(names):
             path = Path(place, name)
-            if left and stat.S_ISREG(path.lstat().st_mode):
+            if left and stat.S_ISREG(path.lstat().st_mode) and os.access(path, os.R_OK):
                 left -= 1
                 yield path
 

@@ -67,7 +67,9 @@ def restore(submitted: NotebookNode, released: NotebookNode) -> NotebookNode:
     metadata = deepcopy(released.metadata)
     own = submitted.metadata.get("autograder", {})
     repairs += _kernel_repair(own.get("kernel"), released)
-    metadata["autograder"] = {**own, "repairs": repairs[:MAX_REPAIRS]}
+    if len(repairs) > MAX_REPAIRS:
+        repairs[MAX_REPAIRS - 1 :] = [f"and {len(repairs) - MAX_REPAIRS + 1} more of this kind"]
+    metadata["autograder"] = {**own, "repairs": repairs}
     return new_notebook(cells=cells, metadata=metadata)
 
 

@@ -46,8 +46,8 @@ def summary(course: Course, results: Sequence[Result]) -> None:
     print("; ".join(words))
     pages = [result.feedback for result in results if result.feedback]
     if pages:
-        step = course.step("feedback", "*", results[0].exercise)
-        print(f"feedback: {relative(step, course.root)}/*.html, for example {terminal_text(pages[0])}")
+        step = course.step("feedback", "*", "*")
+        print(f"feedback: {relative(step, course.root)}/*.html, for example {terminal_text(pages[0], 1000)}")
 
 
 def report_table(reports: Sequence[QuestionReport]) -> None:
