@@ -164,7 +164,7 @@ def _same(student: Expression | Blank, other: Expression, setting: Setting, angl
     if (error <= setting.tolerance).all():
         return True
     # Cancellation in float64 may spoil a right answer; forty digits decide where the values are at least close.
-    return bool((error < 1e-2).all()) and _same_exactly(student, other, setting, angle)
+    return bool((error < 1e-3).all()) and _same_exactly(student, other, setting, angle)
 
 
 def _difference(a, b, angle: bool):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from functools import lru_cache
 
 from dhkit import wire
 
@@ -99,10 +100,10 @@ def _judge_value(question: Question, value: Value, variant: Variant) -> Verdict:
     student = kind.read(form, value)
     setting = _setting(question)
 
-    def compare(answer: object) -> Comparison:
-        return kind.compare(form, student, _own(kind, form, answer), setting)
+    def compare(answer) -> Comparison:
+        return kind.compare(form, student, _own(question, answer, variant), setting)
 
-    return _walk(question, variant, compare)
+    return _walk(question, compare)
 
 
 def _judge_function(question: Question, evidence: Evidence, value: Value, variant: Variant) -> Verdict:
@@ -122,8 +123,8 @@ def _judge_function(question: Question, evidence: Evidence, value: Value, varian
     if all(isinstance(student, Malformed) for student in students):
         raise students[0]
 
-    def compare(function: object) -> Comparison:
-        cases: dict[str, list[bool]] = {}
+    def compare(answer) -> Comparison:
+        function, cases = answer(variant), {}
         for args, student in zip(arguments, students, strict=True):
             other = _read_or_complaint(kind, form, _decoded(form, function(*args)))
             unusable = [isinstance(answer, Malformed) for answer in (student, other)]
@@ -132,16 +133,16 @@ def _judge_function(question: Question, evidence: Evidence, value: Value, varian
         wrong = tuple(f"wrong for {case}" for case, right in cases.items() if not all(right))
         return Comparison(not wrong, 1 - len(wrong) / len(cases), wrong)
 
-    return _walk(question, variant, compare)
+    return _walk(question, compare)
 
 
-def _walk(question: Question, variant: Variant, compare) -> Verdict:
+def _walk(question: Question, compare) -> Verdict:
     """The response tree: right, then each mistake in order, then the parts that are right."""
-    against_reference = compare(question.reference(variant))
+    against_reference = compare(question.reference)
     if against_reference.equal:
         return Verdict(1.0, "right", "**Right.**")
     for node in question.mistakes:
-        if any(compare(answer(variant)).equal for answer in node.answers):
+        if any(compare(answer).equal for answer in node.answers):
             return Verdict(node.share, node.note, node.feedback)
     share = min(question.partial, against_reference.share)
     what = "; ".join(against_reference.remarks) or "the answer differs from the right one"
@@ -153,9 +154,10 @@ def _setting(question: Question) -> Setting:
     return Setting(question.points(), question.angles, question.tolerance)
 
 
-def _own(kind: Kind, form, answer: object) -> object:
+@lru_cache(maxsize=4096)
+def _own(question: Question, answer, variant: Variant) -> object:
     """Our own answer, taken through the same wire and reader as a student's."""
-    return kind.read(form, _decoded(form, answer))
+    return KINDS[question.public.kind].read(question.public, _decoded(question.public, answer(variant)))
 
 
 def _decoded(form, answer: object) -> Value:

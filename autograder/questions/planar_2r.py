@@ -1,0 +1,386 @@
+"""Planar arm with two revolute joints (EPFL slides): direct model, inverse model, postures, reach."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+import sympy
+
+from autograder.judge import Question, mistake
+from autograder.judge.misconceptions import classic_rows, exchanged, product, reversed_product, transposed_rotation
+from autograder.reference import DHRow, robots
+
+t1, t2, L1, L2, x, y = sympy.symbols("t1 t2 L1 L2 x y")
+
+TABLE = robots.PLANAR_2R.table
+TOOL_ROW = [0, TABLE.tool[0, 3], 0, 0, 0]
+ROWS = [[row.sigma, *row.parameters] for row in TABLE.rows] + [TOOL_ROW]
+TRANSFORMS = [row.transform() for row in map(DHRow, *zip(*ROWS, strict=True))]
+HAND = TABLE.symbolic_forward()
+MODEL = list(HAND[:2, 3])
+ELBOW_COSINE = (x**2 + y**2 - L1**2 - L2**2) / (2 * L1 * L2)
+DIRECTION = sympy.atan2(y, x)
+FOREARM = (L2 * sympy.sin(t2), L1 + L2 * sympy.cos(t2))  # the hand seen from link 1: to the left, ahead
+
+LENGTHS = (0.5, 0.4)
+TARGET = (0.3, 0.6)
+
+RELATIVE_ANGLE = (
+    "**The second link is placed as if t2 were measured from the x axis.** t2 goes from link 1 to link 2: with "
+    "t2 = 0 the arm is stretched, whatever t1 is."
+)
+DIFFERENCE = (
+    "**The two joint angles are subtracted.** Both joints turn in the same sense: which angle does link 2 make with "
+    "the x axis when both turn by 10 degrees?"
+)
+SLIDE_Y = (
+    "**This is the form printed on the slide, and it is an erratum.** In the expansion of y the first term "
+    "carries a cosine; compare it with the line above it."
+)
+ONE_POSTURE = "**One posture is missing.** A cosine alone does not tell the sign of its angle."
+ATAN = (
+    "**atan loses the quadrant.** It cannot tell a target behind the base from one in front of it; a function of two "
+    "arguments can."
+)
+EXCHANGED = "**The arguments of atan2 are exchanged.** The ordinate comes first: atan2(y, x)."
+DEGREES = "**The angles are in degrees.** The question asks for radians."
+
+
+def plane(angle, length):
+    return [length * sympy.cos(angle), length * sympy.sin(angle)]
+
+
+def summed(*vectors):
+    return [sum(parts) for parts in zip(*vectors, strict=True)]
+
+
+def consistent_point(rng: np.random.Generator) -> dict[str, float]:
+    """A sample point for t1 as a function of x, y and t2: the three belong to one posture."""
+    l1, l2 = rng.uniform(0.3, 1.2, 2)
+    q1, q2 = rng.uniform(-np.pi, np.pi, 2)
+    px, py = l1 * np.cos(q1) + l2 * np.cos(q1 + q2), l1 * np.sin(q1) + l2 * np.sin(q1 + q2)
+    return {"L1": l1, "L2": l2, "t2": q2, "x": px, "y": py}
+
+
+def reachable_point(rng: np.random.Generator) -> dict[str, float]:
+    return {name: value for name, value in consistent_point(rng).items() if name != "t2"}
+
+
+@lru_cache(maxsize=1024)
+def solutions(px, py, l1, l2):
+    """All (t1, t2) that bring the hand to (px, py)."""
+    return robots.planar_2r(l1, l2).solve((px, py)).q
+
+
+def postures():
+    return solutions(*TARGET, *LENGTHS)
+
+
+def with_first_t1(found):
+    return [[found[0][0], q2] for _, q2 in found]
+
+
+def with_opposite_elbows(found):
+    return [[q1, -q2] for q1, q2 in found]
+
+
+def probes(rng: np.random.Generator) -> list[list[float]]:
+    """Targets in all quadrants, on both limits and out of reach."""
+    found = []
+    for quadrant in range(4):
+        for _ in range(3):
+            l1, l2 = rng.uniform(0.3, 0.8), rng.uniform(0.3, 0.8)
+            r = abs(l1 - l2) + rng.uniform(0.1, 0.9) * (l1 + l2 - abs(l1 - l2))
+            angle = quadrant * np.pi / 2 + rng.uniform(0.1, 1.4)
+            found.append([r * np.cos(angle), r * np.sin(angle), l1, l2])
+    found += [[0.0, 0.6, 0.5, 0.4], [-0.6, 0.0, 0.5, 0.4], [0.0, -0.7, 0.4, 0.5]]
+    # Binary fractions: on these limits the elbow cosine is exactly 1 or -1 however it is computed.
+    found += [[0.75, 0.0, 0.5, 0.25], [0.0, -0.75, 0.5, 0.25], [0.25, 0.0, 0.5, 0.25], [-0.25, 0.0, 0.25, 0.5]]
+    found += [_rounded_outwards(rng) for _ in range(3)]
+    found += [[1.0, 0.3, 0.5, 0.4], [-0.2, 0.1, 0.9, 0.3], [0.02, 0.0, 0.5, 0.4], [3.0, 4.0, 1.0, 1.0]]
+    return [[float(value) for value in args] for args in found]
+
+
+def _rounded_outwards(rng: np.random.Generator) -> list[float]:
+    """A point of the outer limit whose elbow cosine comes out some rounding errors above 1."""
+    while True:
+        l1, l2, angle = rng.uniform(0.3, 0.8), rng.uniform(0.3, 0.8), rng.uniform(0.1, 1.4)
+        px, py = (l1 + l2) * np.cos(angle), (l1 + l2) * np.sin(angle)
+        if elbow_cosine(px, py, l1, l2) > 1 + 4e-16:
+            return [px, py, l1, l2]
+
+
+def elbow_cosine(px, py, l1, l2) -> float:
+    return (px * px + py * py - l1 * l1 - l2 * l2) / (2 * l1 * l2)
+
+
+def where(px, py, l1, l2) -> str:
+    """The case a target belongs to."""
+    r = np.hypot(px, py)
+    if min(abs(r - l1 - l2), abs(r - abs(l1 - l2))) < 1e-9:
+        return "targets on a limit"
+    return "targets within reach" if abs(l1 - l2) < r < l1 + l2 else "targets out of reach"
+
+
+def inverse(*, postures=slice(None), direction=np.arctan2, clipped=True, beyond=()):
+    """A student's inverse(x, y, L1, L2) with one thing done wrong; the default is right.
+
+    `beyond` is returned out of reach, None standing for a function that fails there. Without clipping,
+    targets on a limit fall out of reach by rounding.
+    """
+
+    def answer(px, py, l1, l2):
+        lost = not clipped and abs(elbow_cosine(px, py, l1, l2)) > 1
+        if lost or where(px, py, l1, l2) == "targets out of reach":
+            return beyond
+        found = np.array(solutions(px, py, l1, l2))[postures].reshape(-1, 2)
+        turn = direction(py, px) - np.arctan2(py, px)
+        return [[q1 + turn, q2] for q1, q2 in found]
+
+    return answer
+
+
+def atan_direction(py, px):
+    return np.arctan(py / px) if px else np.sign(py) * np.pi / 2
+
+
+QUESTIONS = (
+    Question(
+        "planar_2r.table",
+        reference=lambda variant: ROWS,
+        mistakes=(
+            mistake(
+                "classic_table",
+                0.3,
+                "**This is the classic Denavit-Hartenberg table**, as on the Romanian slide whose header says modified. "
+                "In the modified form row i holds the link *before* joint i.",
+                lambda variant: classic_rows(ROWS),
+            ),
+            mistake(
+                "a_and_d_exchanged",
+                0.3,
+                "**The columns a and d are exchanged.** a is counted along X, from one joint axis to the next; d along Z.",
+                lambda variant: exchanged(ROWS, "a", "d"),
+            ),
+            mistake(
+                "lengths_exchanged",
+                0.5,
+                "**The two lengths are exchanged.** Which link lies between the two joint axes?",
+                lambda variant: [ROWS[0], [*ROWS[1][:1], L2, *ROWS[1][2:]], [0, L1, 0, 0, 0]],
+            ),
+            mistake(
+                "tool_left_out",
+                0.5,
+                "**The tool length is missing.** The last row must bring the origin from the elbow to the hand.",
+                lambda variant: [*ROWS[:2], [0, 0, 0, 0, 0]],
+            ),
+        ),
+        partial=0.6,
+    ),
+    Question(
+        "planar_2r.model",
+        reference=lambda variant: MODEL,
+        mistakes=(
+            mistake("slide_misprint_y", 0.6, SLIDE_Y, lambda variant: [MODEL[0], MODEL[1] - L1 * sympy.sin(t1) + L1 * sympy.cos(t1)]),
+            mistake("angle_not_summed", 0.4, RELATIVE_ANGLE, lambda variant: summed(plane(t1, L1), plane(t2, L2))),
+            mistake("angles_subtracted", 0.4, DIFFERENCE, lambda variant: summed(plane(t1, L1), plane(t1 - t2, L2))),
+            mistake(
+                "x_and_y_exchanged",
+                0.5,
+                "**x and y are exchanged.** With both angles zero the arm lies on the x axis.",
+                lambda variant: MODEL[::-1],
+            ),
+            mistake(
+                "lengths_exchanged",
+                0.5,
+                "**The two lengths are exchanged.** L1 is the link at the base.",
+                lambda variant: summed(plane(t1, L2), plane(t1 + t2, L1)),
+            ),
+        ),
+    ),
+    Question(
+        "planar_2r.T0E",
+        reference=lambda variant: HAND,
+        mistakes=(
+            mistake(
+                "tool_left_out",
+                0.6,
+                "**The tool is missing: this is 0T2, whose origin is at the elbow.** The hand is one length further on.",
+                lambda variant: product(TRANSFORMS[:2]),
+            ),
+            mistake(
+                "reversed_product",
+                0.3,
+                "**The matrices are multiplied in the reverse order.** From left to right: base first, tool last.",
+                lambda variant: reversed_product(TRANSFORMS),
+            ),
+            mistake(
+                "transposed_rotation",
+                0.4,
+                "**The rotation block is transposed.** Its columns, not its rows, are the axes of the hand's frame.",
+                lambda variant: transposed_rotation(HAND),
+            ),
+            mistake("angles_subtracted", 0.4, DIFFERENCE, lambda variant: HAND.subs(t2, -t2)),
+        ),
+    ),
+    Question(
+        "planar_2r.cos_theta2",
+        reference=lambda variant: ELBOW_COSINE,
+        mistakes=(
+            mistake(
+                "sign_of_law_of_cosines",
+                0.5,
+                "**The sign is turned.** The law of cosines holds for the inner angle of the triangle; t2 is measured "
+                "from the prolonged link 1. Check with the stretched arm.",
+                lambda variant: -ELBOW_COSINE,
+            ),
+            mistake(
+                "factor_two_missing",
+                0.5,
+                "**A factor 2 is missing in the denominator.** Check with the stretched arm: its cosine must be 1.",
+                lambda variant: 2 * ELBOW_COSINE,
+            ),
+            mistake(
+                "angle_instead_of_cosine",
+                0.7,
+                "**This is the angle; its cosine is asked for.** With acos the second posture is already lost.",
+                lambda variant: sympy.acos(ELBOW_COSINE),
+            ),
+        ),
+        draw=reachable_point,
+    ),
+    Question(
+        "planar_2r.theta1",
+        reference=lambda variant: DIRECTION - sympy.atan2(*FOREARM),
+        mistakes=(
+            mistake(
+                "atan_for_atan2",
+                0.5,
+                ATAN,
+                lambda variant: sympy.atan(y / x) - sympy.atan2(*FOREARM),
+                lambda variant: sympy.atan(y / x) - sympy.atan(FOREARM[0] / FOREARM[1]),
+                lambda variant: DIRECTION - sympy.atan(FOREARM[0] / FOREARM[1]),
+            ),
+            mistake(
+                "atan2_arguments_exchanged",
+                0.4,
+                EXCHANGED,
+                lambda variant: sympy.atan2(x, y) - sympy.atan2(*FOREARM[::-1]),
+                lambda variant: sympy.atan2(x, y) - sympy.atan2(*FOREARM),
+                lambda variant: DIRECTION - sympy.atan2(*FOREARM[::-1]),
+            ),
+            mistake(
+                "sign_of_second_angle",
+                0.5,
+                "**The angle between link 1 and the line to the target has the wrong sign.** Draw the arm with a "
+                "small positive t2: on which side of the line does link 1 lie?",
+                lambda variant: DIRECTION + sympy.atan2(*FOREARM),
+            ),
+            mistake(
+                "elbow_not_considered",
+                0.3,
+                "**This is the direction of the target.** Link 1 points there only when the arm is stretched.",
+                lambda variant: DIRECTION,
+            ),
+        ),
+        angles=(0,),
+        draw=consistent_point,
+    ),
+    Question(
+        "planar_2r.reach",
+        reference=lambda variant: [sympy.Abs(L1 - L2), L1 + L2],
+        mistakes=(
+            mistake(
+                "r_min_without_absolute_value",
+                0.7,
+                "**r_min becomes negative when link 2 is the longer one.** A distance never does.",
+                lambda variant: [L1 - L2, L1 + L2],
+                lambda variant: [L2 - L1, L1 + L2],
+            ),
+            mistake(
+                "r_min_zero",
+                0.5,
+                "**The hand cannot come back to the base unless the links are equally long.** Fold the arm and measure.",
+                lambda variant: [0, L1 + L2],
+            ),
+            mistake(
+                "limits_exchanged",
+                0.6,
+                "**The two limits are exchanged.** r_min comes first.",
+                lambda variant: [L1 + L2, sympy.Abs(L1 - L2)],
+            ),
+        ),
+    ),
+    Question(
+        "planar_2r.postures",
+        reference=lambda variant: postures(),
+        mistakes=(
+            mistake("one_posture_missing", 0.5, ONE_POSTURE, lambda variant: postures()[:1], lambda variant: postures()[1:]),
+            mistake(
+                "posture_with_other_theta1",
+                0.4,
+                "**Both postures share one t1.** Each t2 has a t1 of its own: put your second solution into the "
+                "direct model and see where the hand goes.",
+                lambda variant: with_first_t1(postures()),
+                lambda variant: with_first_t1(postures()[::-1]),
+            ),
+            mistake(
+                "elbows_crossed",
+                0.4,
+                "**Each t1 is paired with the other posture's t2.** The pairs belong together: put them into the direct model.",
+                lambda variant: with_opposite_elbows(postures()),
+            ),
+            mistake("degrees", 0.4, DEGREES, lambda variant: np.degrees(postures())),
+        ),
+        angles=(0, 1),
+        tolerance=1e-3,
+    ),
+    Question(
+        "planar_2r.inverse",
+        reference=lambda variant: lambda *target: solutions(*target),
+        mistakes=(
+            mistake(
+                "one_posture_missing",
+                0.5,
+                ONE_POSTURE,
+                lambda variant: inverse(postures=slice(0, 1)),
+                lambda variant: inverse(postures=slice(-1, None)),
+            ),
+            mistake(
+                "atan_for_atan2",
+                0.5,
+                ATAN,
+                lambda variant: inverse(direction=atan_direction),
+                lambda variant: inverse(direction=atan_direction, clipped=False, beyond=None),
+            ),
+            mistake(
+                "unclipped_acos",
+                0.6,
+                "**On a limit your function fails.** Rounding pushes the cosine of t2 a hair above 1, where acos has no "
+                "value. What must the cosine be on the limit?",
+                lambda variant: inverse(clipped=False, beyond=None),
+            ),
+            mistake(
+                "limit_taken_for_out_of_reach",
+                0.7,
+                "**Some targets on a limit come back without a solution.** Rounding pushes the cosine of t2 a hair above "
+                "1: leave a small tolerance before you say that a target is out of reach.",
+                lambda variant: inverse(clipped=False),
+            ),
+            mistake(
+                "out_of_reach_fails",
+                0.7,
+                "**Out of reach your function fails instead of returning an empty list.** Test the cosine of t2 before "
+                "you take acos.",
+                lambda variant: inverse(beyond=None),
+            ),
+            mistake("degrees", 0.4, DEGREES, lambda variant: lambda *target: np.degrees(solutions(*target))),
+        ),
+        angles=(0, 1),
+        tolerance=1e-4,
+        probe=probes,
+        group=where,
+    ),
+    Question("planar_2r.centre", reference=lambda variant: "D"),
+)
