@@ -179,8 +179,7 @@ class ElbowArm(InverseModel):
     anchors = {FREE_FIRST: (0,), FREE_PLANE: (1,)}
 
     def __init__(self, table: DHTable):
-        """Raises ValueError when the table is not an elbow arm of three joints."""
-        self.limits = table.limits
+        super().__init__(table)
         self.arm = ArmGeometry.of(table, table.chain.tail(2)[:3, 3])
         self.map = JointMap.of(table.chain)
         if not (self.arm.upper and self.arm.fore):
@@ -326,11 +325,8 @@ class WristedArm(InverseModel):
     anchors = {FREE_FIRST: (0,), FREE_PLANE: (1,)}
 
     def __init__(self, table: DHTable):
-        """Raises ValueError when the table is not an elbow arm with a spherical wrist."""
-        self.limits = table.limits
+        super().__init__(table)
         chain = table.chain
-        if chain.joints != 6:
-            raise ValueError(f"expected six joints, found {chain.joints}")
         self.arm = ArmGeometry.of(table, chain.row_matrix(3, 0.0)[:3, 3])
         self.map = JointMap.of(chain)
         self.wrist = Wrist.of(table, first=3)
@@ -388,8 +384,7 @@ class WristAlone(InverseModel):
     anchors = {}
 
     def __init__(self, table: DHTable):
-        """Raises ValueError when the table is not a spherical wrist."""
-        self.limits = table.limits
+        super().__init__(table)
         chain = table.chain
         self.wrist = Wrist.of(table, first=0)
         self.line = self.wrist.line

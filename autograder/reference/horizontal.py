@@ -39,15 +39,13 @@ class PlanarArm(InverseModel):
     branches = 2
 
     def __init__(self, table: DHTable):
-        """Raises ValueError when the table is not a planar arm with positive lengths."""
+        super().__init__(table)
         chain = table.chain
         n = chain.joints
         straight = (chain.cos_alpha[1:] > 1.0 - 1e-12).all() and not chain.prismatic[:n].any()
         tail = chain.tail(n - 1)
         if n < 2 or not straight or abs(tail[2, 2] - 1.0) > 1e-12:
             raise ValueError("a planar arm has two or more revolute joints with parallel axes")
-        self.limits = table.limits
-        self.joints = n
         self.revolute = list(range(n))
         self.map = JointMap.of(chain)
         height = chain.fixed[1:n].sum() + tail[2, 3]
@@ -148,16 +146,15 @@ class Scara(InverseModel):
     anchors = {FREE_PLANE: (0,)}
 
     def __init__(self, table: DHTable):
-        """Raises ValueError when the table is not a SCARA (joint 4 may point downwards)."""
+        super().__init__(table)
         chain = table.chain
         kinds = [False, False, True, False]
         upright = chain.cos_alpha[1:3] > 1.0 - 1e-12
         opposite = np.abs(chain.sin_alpha[3:]) < 1e-12
         if list(chain.prismatic[:4]) != kinds or not upright.all() or not opposite.all():
             raise ValueError("a SCARA has parallel axes: revolute, revolute, prismatic, revolute")
-        if chain.joints != 4 or chain.a[3] or (chain.a[1:3] <= 0).any():
+        if chain.a[3] or (chain.a[1:3] <= 0).any():
             raise ValueError("a SCARA has two links of positive length")
-        self.limits = table.limits
         self.links = chain.a[1:3]
         self.map = JointMap.of(chain)
         self._down = np.sign(chain.cos_alpha[3])  # -1 when axis 4 points against axis 1

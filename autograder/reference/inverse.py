@@ -15,6 +15,7 @@ import numpy as np
 from .forward import Chain
 from .planar import FOLDED_LINE, FREE_LINE, wrap
 from .solutions import LIMITED, UNREACHABLE, Batch, Nearest, Solutions
+from .tables import DHTable
 
 TOLERANCE = 1e-9  # metres (radians) by which a pose may miss the workspace and count as on it
 _RIGID = 1e-5  # how far a transform may be from rigid: poses rounded to six decimals pass
@@ -71,12 +72,19 @@ class InverseModel:
     defined, or q_i + s' q_j when FOLDED_LINE is marked too.
     """
 
-    joints: int
+    joints: int | None = None  # None in a class: any number
     branches: int
     revolute: list[int]
-    limits: tuple[tuple[float, float], ...] | None
     anchors: dict[int, tuple[int, ...]]
     line: tuple[int, int, int, int] | None = None
+
+    def __init__(self, table: DHTable):
+        """Raises ValueError, in words, when the table is not of the model's kind of robot."""
+        found = table.chain.joints
+        if self.joints not in (None, found):
+            raise ValueError(f"expected a robot with {self.joints} joints, found {found}")
+        self.joints = found
+        self.limits = table.limits
 
     def kernel(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Answer:
         """All branches for rigid poses (N, 4, 4); near (n, N) fixes what is free."""
@@ -247,10 +255,7 @@ class InverseModel:
             return self.pose(T)
         if T.ndim != 3 or T.shape[1:] != (4, 4):
             raise ValueError(f"expected poses of shape (N, 4, 4), found {T.shape}")
-        turn = T[:, :3, :3]
-        rigid = np.abs(turn.transpose(0, 2, 1) @ turn - np.eye(3)).max(initial=0.0) < _RIGID
-        bottom = np.array_equal(T[:, 3], np.broadcast_to((0.0, 0.0, 0.0, 1.0), (len(T), 4)))
-        if not rigid or not bottom or (np.linalg.det(turn) < 0).any():
+        if not _rigid(T):
             raise ValueError("a pose must be a rigid transform with last row 0 0 0 1")
         return T
 
@@ -335,6 +340,14 @@ class InverseModel:
         best[np.isinf(best)] = 0.0
         batch.q[rows, i] = wrap(at_i + best)
         batch.q[rows, j] = wrap(at_j - sign * best)
+
+
+def _rigid(T) -> bool:
+    """Whether all transforms (N, 4, 4) are rotations with translations, within _RIGID."""
+    s, n, a = np.moveaxis(T[:, :3, :3], 2, 0)
+    wrong = [(s * s).sum(1) - 1, (n * n).sum(1) - 1, (s * n).sum(1), *(np.cross(s, n) - a).T]
+    bottom = (T[:, 3] == (0.0, 0.0, 0.0, 1.0)).all()
+    return bool(bottom and np.abs(wrong).max(initial=0.0) < _RIGID)
 
 
 def translations(points) -> np.ndarray:

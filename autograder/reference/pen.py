@@ -34,14 +34,13 @@ class PenArm(InverseModel):
     line = (1, 2, 1, 1)
 
     def __init__(self, table: DHTable):
-        """Raises ValueError when the table is not the printed pen robot's."""
+        super().__init__(table)
         chain = table.chain
         self.arm = ArmGeometry.of(table, chain.tail(2)[:3, 3])
         drives = chain.coupling[:3]
         expected = [[1, 0, 0], [drives[1, 0], 1, 0], [0, 0, 1]]
-        if self.arm.upper or chain.joints != 3 or not np.array_equal(drives, expected):
+        if self.arm.upper or not np.array_equal(drives, expected):
             raise ValueError("the pen robot has axes 2 and 3 on one line, driven by q2 and q3")
-        self.limits = table.limits
         self._table = table
         self._offset = chain.offset[:3]
         self._from_first = drives[1, 0]

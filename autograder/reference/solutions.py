@@ -118,7 +118,7 @@ class Batch:
             reason = "on the limit of the workspace, where branches merge: " + labels[0]
         else:
             reason = "1 posture" if len(rows) == 1 else f"{len(rows)} postures"
-        return Solutions(self.q[index, rows], labels, status, reason, free, free_by_row, miss)
+        return Solutions(self.q[index, rows] + 0.0, labels, status, reason, free, free_by_row, miss)
 
 
 def _status(valid, marks) -> np.ndarray:
