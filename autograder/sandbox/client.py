@@ -141,7 +141,7 @@ class SandboxClient(NotebookClient):
         self.clear_before_next_output = False
         request = self.kc.execute(source, allow_stdin=False, stop_on_error=False)
         progress = Progress()
-        while not self._finished(progress, self.provisioner.relay.refused > refused_before):
+        while not self._finished(progress, refused=self.provisioner.relay.refused > refused_before):
             now = time.monotonic()
             if progress.stopped is None and now >= deadline:
                 progress.stopped = ("timeout", "stopped: it took too long")
@@ -163,10 +163,11 @@ class SandboxClient(NotebookClient):
                     self._take(channel, message, progress, cell, index)
         return self._result(progress, cell, refused=self.provisioner.relay.refused > refused_before)
 
-    def _finished(self, progress: Progress, refused: bool) -> bool:
+    def _finished(self, progress: Progress, *, refused: bool) -> bool:
         """Whether the cell ended: both halves of its end came, or the second does not come any more.
 
-        A message that was too long is left out, and it may have been one of the two.
+        A message that was too long is left out, and it may have been one of
+        the two.  A kernel of which one half is missing is not used any further.
         """
         if progress.reply is not None and progress.idle:
             return True
@@ -175,7 +176,8 @@ class SandboxClient(NotebookClient):
             return False
         if progress.ended_at is None:
             progress.ended_at = time.monotonic()
-        return time.monotonic() > progress.ended_at + SETTLE_SECONDS
+        self.lost = time.monotonic() > progress.ended_at + SETTLE_SECONDS
+        return self.lost
 
     def _take(self, channel: str, message: Message, progress: Progress, cell: NotebookNode, index: int) -> None:
         if channel == "shell":

@@ -19,6 +19,7 @@ from .client import CellRun, SandboxClient
 from .limits import Limits
 
 MAX_RESTARTS = 2
+NAMES_SHOWN = 5
 
 RUNNING: set[asyncio.Task[Run]] = set()
 
@@ -46,11 +47,13 @@ class Session:
     deadline: float = float("inf")
     starts: int = 0
     used: int = 0
+    left_out: tuple[str, ...] = ()
 
     async def start(self) -> None:
         self.client = SandboxClient(self.nb, self.limits, self.options, self.used)
         self.starts += 1
         await self.client.start()
+        self.left_out = self.client.provisioner.left_out
         self.deadline = min(self.deadline, time.monotonic() + self.limits.notebook_seconds)
 
     def stop(self) -> None:
@@ -123,6 +126,9 @@ async def run_session(session: Session, followup: Followup | None) -> Run:
     finally:
         session.stop()
         RUNNING.discard(task)
+    if session.left_out and session.run.message is None:
+        names = ", ".join(session.left_out[:NAMES_SHOWN])
+        session.run.message = f"{len(session.left_out)} files too large for the work folder were left out: {names}"
     return session.run
 
 

@@ -208,7 +208,7 @@ from autograder import sandbox
 cell = nbformat.v4.new_code_cell("import subprocess; subprocess.run(['sleep', '73.4'])")
 sandbox.run_notebook(nbformat.v4.new_notebook(cells=[cell]), workdir=pathlib.Path(sys.argv[1]))
 """
-    process = subprocess.Popen([sys.executable, "-c", script, str(tmp_path)])
+    process = subprocess.Popen([sys.executable, "-c", script, str(tmp_path)], env={**os.environ, "TMPDIR": str(tmp_path)})
     while not alive("sleep 73.4"):
         assert process.poll() is None
         time.sleep(0.05)
