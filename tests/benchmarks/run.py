@@ -1,0 +1,182 @@
+"""Measurements of the reference solver against its peers, each pair in one run.
+
+    .venv/bin/python tests/benchmarks/run.py
+
+Every figure is a ratio of two timings on the same data and machine; absolute
+times are shown for orientation. Both sides run several times in turns and the
+best time of each counts, so that other work on the machine disturbs both alike;
+only fkine and simplify, which take ten seconds and more, run once. Where both
+sides compute the same thing, their results must agree. Peers with pins of
+their own live in .venv-bench, made from requirements.txt beside this file; they
+are run in that environment and hand back timings as JSON.
+
+Exit status: 0 when all targets are met, 1 otherwise.
+"""
+
+import json
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+import sympy as sp
+from eaik.IK_DH import DhRobot
+from rich.console import Console
+from rich.table import Table
+
+from autograder.reference import robots, workspace
+from autograder.reference.errata.proof import agree
+
+HERE = Path(__file__).resolve().parent
+PEERS = HERE.parents[1] / ".venv-bench" / "bin" / "python"
+POSES = 100_000
+POINTS = 1_000_000
+A3, D3 = 0.45, 0.45
+ARM = robots.rx90(a3=A3, d3=D3)
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line of the table; `met` is None when the measurement could not be made."""
+
+    what: str
+    ours: str
+    peer: str
+    ratio: str
+    target: str
+    met: bool | None
+
+
+def best(*actions, turns=5):
+    """Best time of each action in seconds; they take turns."""
+    times = [[] for _ in actions]
+    for _ in range(turns):
+        for spent, action in zip(times, actions):
+            start = perf_counter()
+            action()
+            spent.append(perf_counter() - start)
+    return [min(spent) for spent in times]
+
+
+def forward():
+    what = f"forward, {POSES:,} poses of the RX-90"
+    target = "50 x faster than robotics-toolbox fkine"
+    if not PEERS.exists():
+        return [Row(what, "", "", f"{PEERS.parents[1].name} is missing", target, None)]
+    q = random_joints()
+    ours, = best(lambda: ARM.forward(q))
+    with tempfile.TemporaryDirectory() as folder:
+        joints, poses = Path(folder, "joints.npy"), Path(folder, "poses.npy")
+        np.save(joints, q)
+        done = subprocess.run(
+            [PEERS, HERE / "peer_fkine.py", joints, poses, str(A3), str(D3)],
+            check=True, capture_output=True, text=True)
+        peer = json.loads(done.stdout.splitlines()[-1])["seconds"]
+        must_equal(np.load(poses), ARM.forward(q), "poses")
+    return [Row(what, seconds(ours), seconds(peer), f"{peer / ours:.0f} x", target,
+                peer / ours >= 50)]
+
+
+def inverse():
+    poses = ARM.forward(random_joints())
+    quarter = np.pi / 2
+    peer_robot = DhRobot(np.array([quarter, 0, -quarter, quarter, -quarter, 0]),
+                         np.array([0, A3, 0, 0, 0, 0]), np.array([0, 0, 0, D3, 0, 0]))
+    must_equal(peer_robot.fwdKin(np.full(6, 0.3)), ARM.forward(np.full(6, 0.3)), "the two robots")
+    ours, alone, default = best(lambda: ARM.solve_batch(poses),
+                                lambda: peer_robot.IK_batched(poses, 1),
+                                lambda: peer_robot.IK_batched(poses), turns=4)
+    postures = int(ARM.solve_batch(poses).count.sum())
+    theirs = sum(len(found.Q) for found in peer_robot.IK_batched(poses[:2000]))
+    must_equal(theirs, int(ARM.solve_batch(poses[:2000]).count.sum()), "numbers of postures")
+    what = f"inverse, {POSES:,} poses of the RX-90, {postures / POSES:.0f} postures each"
+    return [Row(f"{what}; EAIK with {threads}", f"{1e6 * ours / POSES:.2f} us/pose",
+                f"{1e6 * peer / POSES:.2f} us/pose", f"{peer / ours:.2f} x",
+                "no slower than EAIK's C++ batch", peer >= ours)
+            for threads, peer in [("1 thread", alone), ("4 threads, its default", default)]]
+
+
+def symbolic():
+    table = ARM.table
+    simplified = fresh(lambda: sp.simplify(table.product()))
+    merged = min((fresh(table.symbolic_forward) for _ in range(3)), key=lambda done: done[0])
+    if not agree(simplified[1], merged[1]):
+        raise RuntimeError("the two symbolic models differ")
+    ratio = simplified[0] / merged[0]
+    operations = [int(sum(sp.count_ops(entry) for entry in done[1])) for done in (merged, simplified)]
+    return [Row("symbolic 0T6 of the RX-90", seconds(merged[0]), seconds(simplified[0]),
+                f"{ratio:.0f} x", "30 x faster than sympy.simplify of the product", ratio >= 30),
+            Row("  operations in its entries", str(operations[0]), str(operations[1]),
+                f"{operations[0] / operations[1]:.2f}", "no more than simplify's",
+                operations[0] <= operations[1])]
+
+
+def workspace_points():
+    lengths, limits = (1.0, 0.6), [(-2.5, 2.5), (-3.0, 3.0)]
+    rng = np.random.default_rng(0)
+    first = rng.uniform(*limits[0], POINTS)
+    elbow = first + rng.uniform(*limits[1], POINTS)
+    ours, bare = best(
+        lambda: workspace.sample(lambda q: workspace.planar_points(lengths, q), limits, POINTS, rng),
+        lambda: (np.cos(first), np.sin(first), np.cos(elbow), np.sin(elbow)))
+    side = int(POINTS**0.5)
+    q1, q2 = (np.linspace(*pair, side) for pair in limits)
+    sums = np.add.outer(q1, q2).ravel()
+    grid, grid_bare = best(
+        lambda: workspace.rr_grid(*lengths, q1, q2),
+        lambda: (np.cos(q1), np.sin(q1), np.cos(sums), np.sin(sums)))
+    return [Row(f"{POINTS:,} points of the 2R arm, {how}", seconds(a), seconds(b), f"{a / b:.2f} x",
+                "3 x the bare cosines and sines", a <= 3 * b)
+            for how, a, b in [("random joints drawn too", ours, bare), ("grid", grid, grid_bare)]]
+
+
+def imports():
+    def run(modules):
+        return lambda: subprocess.run([sys.executable, "-c", f"import {modules}"], check=True,
+                                      cwd=HERE.parents[1])
+
+    ours, peer = best(run("autograder.reference"), run("numpy, sympy"), turns=7)
+    return [Row("import autograder.reference (peer: numpy and sympy)", seconds(ours), seconds(peer),
+                f"{ours - peer:+.3f} s", "+0.1 s", ours - peer <= 0.1)]
+
+
+def fresh(action):
+    """(seconds, result) without what sympy remembers from before."""
+    sp.core.cache.clear_cache()
+    start = perf_counter()
+    result = action()
+    return perf_counter() - start, result
+
+
+def random_joints():
+    return np.random.default_rng(0).uniform(-np.pi, np.pi, (POSES, 6))
+
+
+def must_equal(a, b, what):
+    """A benchmark of two different things means nothing."""
+    if not np.allclose(a, b, atol=1e-9):
+        raise RuntimeError(f"{what} differ: the measurement would be meaningless")
+
+
+def seconds(value):
+    return f"{value:.3g} s" if value >= 1 else f"{1000 * value:.3g} ms"
+
+
+def main():
+    table = Table(title="Reference solver against its peers")
+    for name in ("what", "ours", "peer", "ratio", "target", ""):
+        table.add_column(name, overflow="fold")
+    rows = [row for measure in (forward, inverse, symbolic, workspace_points, imports)
+            for row in measure()]
+    for row in rows:
+        verdict = {True: "[green]met[/]", False: "[red]missed[/]", None: "[yellow]not run[/]"}
+        table.add_row(row.what, row.ours, row.peer, row.ratio, row.target, verdict[row.met])
+    Console(width=150).print(table)
+    return 0 if all(row.met for row in rows) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
