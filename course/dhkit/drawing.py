@@ -56,8 +56,14 @@ def styled(draw):
 
     @wraps(draw)
     def in_style(*args, **kwargs):
-        with plt.rc_context(STYLE):
+        # Not rc_context: it would also undo the interactive mode that Jupyter's backend sets when the first figure
+        # loads it, and no later figure would be shown.
+        kept = {name: plt.rcParams[name] for name in STYLE}
+        plt.rcParams.update(STYLE)
+        try:
             return draw(*args, **kwargs)
+        finally:
+            plt.rcParams.update(kept)
 
     return in_style
 
@@ -390,20 +396,23 @@ def _legend_below(ax, handles, labels, columns=2):
 
 
 @styled
-def draw_workspace_2r(lengths, limits=None, ax=None):
+def draw_workspace_2r(lengths, limits=None, ax=None, *, names=True):
     """Workspace of a planar 2R arm: the ring between the inner and the outer limit.
 
     Parameters
     ----------
     lengths : array-like, shape (2,), in metres
     limits : array-like, shape (2, 2), in radians, optional
-        Rows (min, max) of t1 and t2; the part of the ring that they leave is hatched darker.
+        Rows (min, max) of t1 and t2; the part of the ring that they leave is darker.
+    names : bool
+        Draw and name the two radii.
 
     Returns
     -------
     matplotlib Axes
     """
     lengths = _lengths(lengths, "lengths", (2,))
+    limits = None if limits is None else as_numbers(limits, "limits", (2, 2))
     inner, outer = abs(lengths[0] - lengths[1]), lengths.sum()
     ax = ax or _new_axes((4.8, 4.8))
     _plane(ax)
@@ -411,11 +420,11 @@ def draw_workspace_2r(lengths, limits=None, ax=None):
     if inner > 1e-9:
         ax.add_patch(Circle((0, 0), inner, facecolor="white", edgecolor=INK, lw=1.6, ls=(0, (5, 2)), zorder=1.6))
     if limits is not None:
-        limits = as_numbers(limits, "limits", (2, 2))
         ax.add_collection(_swept_area(lengths, limits))
-    _radius(ax, outer, np.radians(28), "r_{max} = L_1 + L_2")
-    if inner > 1e-9:
-        _radius(ax, inner, np.radians(-62), "r_{min} = |L_1 - L_2|", beyond=True)
+    if names:
+        _radius(ax, outer, np.radians(28), r"r_\mathrm{max} = L_1 + L_2")
+    if names and inner > 1e-9:
+        _radius(ax, inner, np.radians(-62), r"r_\mathrm{min} = |L_1 - L_2|", beyond=True)
     _joint(ax, (0, 0))
     ax.set_xlim(-1.12 * outer, 1.12 * outer)
     ax.set_ylim(-1.12 * outer, 1.12 * outer)
@@ -437,13 +446,12 @@ def _swept_area(lengths, limits, cells=60) -> PolyCollection:
 def _radius(ax, radius, angle, label, beyond=False):
     end = radius * _unit(angle)
     _arrow(ax, (0, 0), end, width=1.1, zorder=4)
-    at = end * 1.0 + (0.13 * _unit(angle) if beyond else 0) if beyond else end / 2
     turn = (np.degrees(angle) + 90) % 180 - 90
     if beyond:
-        _text(ax, at, f"${label}$", fontsize=10, ha="left")
+        _text(ax, end + 0.13 * _unit(angle), f"${label}$", fontsize=10, ha="left")
     else:
         side = np.array([-np.sin(angle), np.cos(angle)])
-        _text(ax, at + 0.07 * radius * side, f"${label}$", fontsize=10, rotation=turn, rotation_mode="anchor")
+        _text(ax, end / 2 + 0.07 * radius * side, f"${label}$", fontsize=10, rotation=turn, rotation_mode="anchor")
 
 
 @styled

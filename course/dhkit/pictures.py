@@ -97,9 +97,14 @@ def _numbers(answer, what: str, shape: tuple, values: dict[str, float]) -> np.nd
 
 def _called(function, *arguments):
     """What a student's function returns; returning nothing counts as not attempted."""
-    if not callable(function):
-        raise ValueError(f"expected a function, found {type(function).__name__}")
-    return _attempted(function(*arguments))
+    result = _function(function)(*arguments)
+    return [] if isinstance(result, (list, tuple, np.ndarray)) and len(result) == 0 else _attempted(result)
+
+
+def _function(answer):
+    if not callable(answer):
+        raise ValueError(f"expected a function, found {type(answer).__name__}")
+    return answer
 
 
 # ---------------------------------------------------------------- tables and frames
@@ -201,7 +206,7 @@ def _say_if_not_rigid(ax, frame):
 
 
 @_own_result
-def show_on_scara(answer, values: dict[str, float], name="4"):
+def show_on_scara(answer, values: dict[str, float], base="0"):
     """A hand frame, or [x, y, z, theta], beside the SCARA in the posture given by `values`.
 
     The frame belongs on the tip of the quill.
@@ -210,10 +215,9 @@ def show_on_scara(answer, values: dict[str, float], name="4"):
     ----------
     answer : 4x4 matrix or 4 entries, SymPy or numbers
     values : dict
-        Numbers for t1, t2, t4 (radians), a2, a3, d2 (metres). Without t1 the robot is drawn with t1 = 0, so that
-        its base is frame 1.
-    name : str
-        Index of the hand frame.
+        Numbers for t1, t2, t4 (radians), a2, a3, d2 (metres).
+    base : "0" or "1"
+        Frame from which the answer is seen. For "1" the robot is drawn with t1 = 0, so that its base is frame 1.
 
     Returns
     -------
@@ -225,9 +229,9 @@ def show_on_scara(answer, values: dict[str, float], name="4"):
         frame[:3, 3] = x, y, z
     else:
         frame = _numbers(answer, "transform", (4, 4), values)
-    q = [values.get("t1", 0.0), values["t2"], values["d2"], values["t4"]]
+    q = [values["t1"] if base == "0" else 0.0, values["t2"], values["d2"], values["t4"]]
     ax = drawing.draw_scara_3d(q, values["a2"], values["a3"], frames=False, dimensions=False)
-    drawing.mark_frame(ax, frame, name, 0.28 * (values["a2"] + values["a3"]))
+    drawing.mark_frame(ax, frame, "4", 0.28 * (values["a2"] + values["a3"]))
     _say_if_not_rigid(ax, frame)
     return ax
 
@@ -396,7 +400,10 @@ def show_reach(limits, lengths):
     ax.set_aspect("equal")
     ax.plot(x, y, ".", ms=2.5, color=SOFT, label="random postures")
     turn = np.linspace(0, 2 * np.pi, 200)
-    for radius, dashes, name in ((outer, "-", "your $r_{max}$"), (inner, (0, (5, 2)), "your $r_{min}$")):
+    for radius, dashes, name in (
+        (outer, "-", "your $r_\\mathrm{max}$"),
+        (inner, (0, (5, 2)), "your $r_\\mathrm{min}$"),
+    ):
         ax.plot(
             radius * np.cos(turn), radius * np.sin(turn), color=INK, lw=1.8, ls=dashes, label=f"{name} = {radius:.2f} m"
         )
@@ -447,9 +454,8 @@ def show_inverse(inverse, lengths):
 
 def _posture_count(inverse, x, y, lengths) -> str:
     """ "0", "1", "2", "more", or "misses" if a returned posture does not reach (x, y)."""
-    answer = inverse(float(x), float(y), *lengths)
-    rows = [] if isinstance(answer, (list, tuple, np.ndarray)) and len(answer) == 0 else _attempted(answer)
-    rows = _numbers(rows, "inverse", (None, 2), {}) if len(rows) else []
+    answer = _called(inverse, float(x), float(y), *lengths)
+    rows = _numbers(answer, "inverse", (None, 2), {}) if len(answer) else []
     if any(np.hypot(*(planar_points(lengths, row)[2] - (x, y))) > 1e-6 for row in rows):
         return "misses"
     return str(len(rows)) if len(rows) <= 2 else "more"

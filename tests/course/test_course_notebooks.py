@@ -1,0 +1,109 @@
+"""The notebooks as files: clean, stable, and asking every question exactly once in the exact form."""
+
+import re
+from pathlib import Path
+
+import nbformat
+import pytest
+from dhkit.public import questions
+from nbgrader.preprocessors import ClearSolutions
+from traitlets.config import Config
+
+ROOT = Path(__file__).parents[2]
+LECTURES = sorted((ROOT / "course").glob("*.ipynb"))
+SOLUTIONS = sorted((ROOT / "solutions").glob("*/*.ipynb"))
+STUB = "# your code here"
+
+
+def name(path):
+    return str(path.relative_to(ROOT))
+
+
+def read(path):
+    return nbformat.read(path, as_version=4)
+
+
+def nbgrader(cell) -> dict:
+    return cell.metadata.get("nbgrader", {})
+
+
+def checks(notebook) -> list:
+    return [cell for cell in notebook.cells if nbgrader(cell).get("grade")]
+
+
+def test_there_are_notebooks_to_test():
+    assert {path.stem for path in LECTURES} >= {"scara", "planar_2r"}
+    assert {path.stem for path in SOLUTIONS} >= {"scara", "planar_2r"}
+    assert all(path.stem == path.parent.name for path in SOLUTIONS)
+
+
+@pytest.mark.parametrize("path", LECTURES + SOLUTIONS, ids=name)
+def test_notebook_is_valid_and_without_outputs(path):
+    notebook = read(path)
+    nbformat.validate(notebook)
+    assert (notebook.nbformat, notebook.nbformat_minor) == (4, 5)
+    assert notebook.metadata.kernelspec.name == "python3"
+    for cell in notebook.cells:
+        if cell.cell_type == "code":
+            assert cell.outputs == [] and cell.execution_count is None, cell.id
+
+
+@pytest.mark.parametrize("path", LECTURES + SOLUTIONS, ids=name)
+def test_cell_ids_are_unique_and_readable(path):
+    ids = [cell.id for cell in read(path).cells]
+    assert len(ids) == len(set(ids))
+    assert not [id for id in ids if re.fullmatch(r"[0-9a-f]{8}", id)]
+
+
+@pytest.mark.parametrize("path", LECTURES, ids=name)
+def test_lectures_need_no_grader(path):
+    source = "\n".join(cell.source for cell in read(path).cells)
+    assert "autograder" not in source and "nbgrader" not in source
+
+
+@pytest.mark.parametrize("path", SOLUTIONS, ids=name)
+def test_points_sum_to_twenty(path):
+    assert sum(nbgrader(cell)["points"] for cell in checks(read(path))) == 20
+
+
+@pytest.mark.parametrize("path", SOLUTIONS, ids=name)
+def test_every_question_is_asked_once_in_the_exact_form(path):
+    notebook = read(path)
+    asked = [cell.source for cell in checks(notebook)]
+    ids = [id for id in questions() if id.startswith(f"{path.stem}.")]
+    assert sorted(asked) == sorted(f'check("{id}", {id.split(".")[1]})' for id in ids)
+
+
+@pytest.mark.parametrize("path", SOLUTIONS, ids=name)
+def test_each_check_follows_its_own_answer_cell(path):
+    cells = read(path).cells
+    marked = [cell for cell in cells if nbgrader(cell)]
+    for answer, check in zip(marked[::2], marked[1::2], strict=True):
+        id = re.match(r'check\("([\w.]+)"', check.source)[1].replace(".", "-")
+        assert (nbgrader(answer)["grade_id"], nbgrader(check)["grade_id"]) == (f"{id}-answer", id)
+        assert (answer.id, check.id) == (f"{id}-answer", id)
+        assert nbgrader(answer)["solution"] and not nbgrader(answer)["locked"] and not nbgrader(answer)["grade"]
+        assert nbgrader(check)["locked"] and not nbgrader(check)["solution"]
+        assert {nbgrader(answer)["schema_version"], nbgrader(check)["schema_version"]} == {3}
+
+
+@pytest.mark.parametrize("path", SOLUTIONS, ids=name)
+def test_released_answer_cells_are_python_with_a_stub_and_no_solution(path):
+    config = Config()
+    config.ClearSolutions.code_stub = {"python": STUB}
+    released, _ = ClearSolutions(config=config).preprocess(read(path), {})
+    for cell in released.cells:
+        if nbgrader(cell).get("solution"):
+            assert STUB in cell.source and "SOLUTION" not in cell.source
+            assert "..." in cell.source or cell.source.startswith("def ")
+            compile(cell.source, cell.id, "exec")
+
+
+@pytest.mark.parametrize("path", SOLUTIONS, ids=name)
+def test_titles_announce_the_points_of_their_question(path):
+    announced = {}
+    for cell in read(path).cells:
+        if cell.cell_type == "markdown" and (found := re.search(r"^## .*\((\d+) points?\)$", cell.source, re.M)):
+            announced["next"] = int(found[1])
+        if nbgrader(cell).get("grade"):
+            assert announced.pop("next") == nbgrader(cell)["points"], cell.id
