@@ -1,7 +1,8 @@
 """Drawings of the course: planar arms, workspaces, kinematic sketches and frames in three dimensions.
 
 Every ``draw_*`` function takes lengths in metres and angles in radians, makes its own figure unless it is
-given `ax`, and returns the Axes. Bad input raises `ValueError` with the awaited form in words.
+given `ax`, and returns the Axes. Bad input raises `ValueError` with the awaited form in words. ``mark_*`` functions add
+to a drawing.
 
 One style for the whole course: x red and solid, y green and dashed, z blue and dash-dotted, all labelled, so
 that a grey print and a colour-blind reader lose nothing. Links are grey; darker means a later posture.
@@ -9,94 +10,12 @@ that a grey print and a colour-blind reader lose nothing. Links are grey; darker
 
 from __future__ import annotations
 
-from functools import wraps
-
-import matplotlib.pyplot as plt
 import numpy as np
 import sympy
 from matplotlib.collections import PolyCollection
-from matplotlib.colors import LightSource
-from matplotlib.patches import Arc, Circle, FancyArrowPatch, Polygon, Rectangle
-from matplotlib.patheffects import withStroke
-from mpl_toolkits.mplot3d import Axes3D, proj3d
-from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+from matplotlib.patches import Circle, Polygon, Rectangle
 
-INK = "#222222"
-SOFT = "#8c8c8c"
-FAINT = "#d4d4d4"
-# Okabe-Ito colours: told apart with any common colour-blindness, and of different lightness in grey print.
-AXIS_COLOURS = {"x": "#D55E00", "y": "#009E73", "z": "#0072B2"}
-AXIS_DASHES = {"x": "-", "y": (0, (5, 1.5)), "z": (0, (6, 1.5, 1.2, 1.5))}
-POSTURE_SHADES = ("#e9e9e9", "#a9a9a9", "#cfcfcf", "#8e8e8e")
-CENTRE_LINE = (0, (9, 3, 2, 3))
-
-STYLE = {
-    "font.family": "DejaVu Sans",
-    "font.size": 10,
-    "mathtext.fontset": "cm",
-    "axes.edgecolor": SOFT,
-    "axes.labelcolor": INK,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.titlesize": 11,
-    "axes.axisbelow": True,
-    "xtick.color": INK,
-    "ytick.color": INK,
-    "text.color": INK,
-    "grid.color": "#ececec",
-    "figure.dpi": 110,
-    "savefig.dpi": 160,
-    "savefig.bbox": "tight",
-    "legend.frameon": False,
-}
-
-
-def styled(draw):
-    """Run a drawing function in the style of the course, leaving the reader's own settings alone."""
-
-    @wraps(draw)
-    def in_style(*args, **kwargs):
-        # Not rc_context: it would also undo the interactive mode that Jupyter's backend sets when the first figure
-        # loads it, and no later figure would be shown.
-        kept = {name: plt.rcParams[name] for name in STYLE}
-        plt.rcParams.update(STYLE)
-        try:
-            return draw(*args, **kwargs)
-        finally:
-            plt.rcParams.update(kept)
-
-    return in_style
-
-
-# ---------------------------------------------------------------- input
-
-
-def as_numbers(value, what: str, shape: tuple[int | None, ...]) -> np.ndarray:
-    """`value` as a float array of `shape` (None: any size), or a `ValueError` that says what `what` must be."""
-    form = " x ".join("n" if size is None else str(size) for size in shape)
-    try:
-        array = np.array(value.tolist() if isinstance(value, sympy.MatrixBase) else value, dtype=float)
-    except (TypeError, ValueError):
-        raise ValueError(f"{what}: expected {form} numbers, found {_short(value)}") from None
-    fits = array.ndim == len(shape) and all(want in (None, have) for want, have in zip(shape, array.shape))
-    if not fits:
-        found = " x ".join(map(str, array.shape)) or "one number"
-        raise ValueError(f"{what}: expected {form} numbers, found {found}")
-    if not np.isfinite(array).all():
-        raise ValueError(f"{what}: found a value that is not a finite number")
-    return array
-
-
-def _short(value) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else f"{text[:57]}..."
-
-
-def _lengths(value, what: str, shape: tuple[int | None, ...]) -> np.ndarray:
-    array = as_numbers(value, what, shape)
-    if (array <= 0).any():
-        raise ValueError(f"{what}: lengths must be positive, found {_short(value)}")
-    return array
+from . import strokes
 
 
 def planar_points(lengths, q) -> np.ndarray:
@@ -111,160 +30,17 @@ def planar_points(lengths, q) -> np.ndarray:
     -------
     ndarray, shape (n + 1, 2), in metres
     """
-    lengths = as_numbers(lengths, "lengths", (None,))
-    q = as_numbers(q, "joint angles", (len(lengths),))
+    lengths = strokes.as_numbers(lengths, "lengths", (None,))
+    q = strokes.as_numbers(q, "joint angles", (len(lengths),))
     heading = np.cumsum(q)
     steps = lengths[:, None] * np.column_stack([np.cos(heading), np.sin(heading)])
     return np.vstack([[0, 0], np.cumsum(steps, axis=0)])
 
 
-# ---------------------------------------------------------------- strokes in the plane
-
-
-def _new_axes(figsize=(5.2, 4.2)):
-    return plt.subplots(figsize=figsize)[1]
-
-
-def _plane(ax, grid=True, labels=("x (m)", "y (m)")):
-    ax.set_aspect("equal")
-    ax.grid(grid)
-    ax.set_xlabel(labels[0])
-    ax.set_ylabel(labels[1])
-
-
-def _sketch(ax):
-    ax.set_aspect("equal")
-    ax.axis("off")
-
-
-def _halo():
-    return [withStroke(linewidth=3.2, foreground="white")]
-
-
-def _text(ax, at, text, **options):
-    options = {"ha": "center", "va": "center", "fontsize": 11, "zorder": 9} | options
-    return ax.text(*at, text, path_effects=_halo(), **options)
-
-
-def _unit(angle: float) -> np.ndarray:
-    return np.array([np.cos(angle), np.sin(angle)])
-
-
-def _arrow(ax, start, end, colour=INK, width=1.6, style="-|>", dashes="-", zorder=6, neck=0.9):
-    """Arrow whose shaft may be dashed while its head stays clean."""
-    start, end = np.asarray(start, float), np.asarray(end, float)
-    ax.plot(
-        *zip(start, start + neck * (end - start)),
-        color=colour,
-        lw=width,
-        ls=dashes,
-        zorder=zorder,
-        solid_capstyle="butt",
-    )
-    head = FancyArrowPatch(
-        start + 0.8 * (end - start), end, arrowstyle=style, mutation_scale=11, shrinkA=0, shrinkB=0,
-        color=colour, lw=width, zorder=zorder,
-    )  # fmt: skip
-    head.set_linestyle("none" if dashes != "-" else "-")
-    ax.add_patch(head)
-
-
-def _axis_arrow(ax, origin, angle, size, letter, label, away=0.2, neck=0.9):
-    end = np.asarray(origin) + size * _unit(angle)
-    _arrow(ax, origin, end, AXIS_COLOURS[letter], dashes=AXIS_DASHES[letter], neck=neck)
-    if label:
-        _text(ax, end + away * size * _unit(angle), f"${label}$", color=AXIS_COLOURS[letter])
-
-
-def _dimension(ax, start, end, label, shift, beside=False):
-    """Dimension line from `start` to `end`, moved by `shift` to the left of that direction.
-
-    The label interrupts the line, or stands outside it, ``beside=True``, where the line is short.
-    """
-    start, end = np.asarray(start, float), np.asarray(end, float)
-    along = (end - start) / np.hypot(*(end - start))
-    side = np.array([-along[1], along[0]]) * np.sign(shift)
-    a, b = start + abs(shift) * side, end + abs(shift) * side
-    for point, foot in ((a, start), (b, end)):
-        ax.plot(*zip(foot + 0.15 * (point - foot), point + 0.12 * (point - foot)), color=SOFT, lw=0.7, zorder=2)
-    ax.add_patch(
-        FancyArrowPatch(a, b, arrowstyle="<|-|>", mutation_scale=8, shrinkA=0, shrinkB=0, color=INK, lw=0.9, zorder=3)
-    )
-    middle = (a + b) / 2
-    if beside:
-        _text(ax, middle + 0.25 * abs(shift) * side, f"${label}$", ha="right" if side[0] < -0.5 else "center")
-    else:
-        box = {"facecolor": "white", "edgecolor": "none", "pad": 1.2}
-        ax.text(*middle, f"${label}$", ha="center", va="center", fontsize=11, bbox=box, zorder=9)
-
-
-def _angle(ax, centre, radius, start, sweep, label, away=1.28, colour=INK):
-    """Arc with an arrow head from direction `start` over `sweep` radians, labelled at its middle."""
-    centre = np.asarray(centre, float)
-    if abs(sweep) > 1e-6:
-        tip = min(0.35, 0.045 / radius, abs(sweep) * 0.9) * np.sign(sweep)
-        sides = np.degrees(sorted((start, start + sweep - 0.7 * tip)))
-        ax.add_patch(
-            Arc(centre, 2 * radius, 2 * radius, theta1=sides[0], theta2=sides[1], color=colour, lw=1.1, zorder=5)
-        )
-        end, before = centre + radius * _unit(start + sweep), centre + radius * _unit(start + sweep - tip)
-        ax.add_patch(
-            FancyArrowPatch(
-                before, end, arrowstyle="-|>", mutation_scale=8, shrinkA=0, shrinkB=0, color=colour, lw=1, zorder=5
-            )
-        )
-    if label:
-        _text(ax, centre + away * radius * _unit(start + sweep / 2), f"${label}$", color=colour)
-
-
-def _link(ax, start, end, fill, width=13.0, zorder=3, **options):
-    """A link with round ends: an ink line under a lighter and thinner one."""
-    xs, ys = zip(start, end)
-    outline = ax.plot(xs, ys, color=INK, lw=width, solid_capstyle="round", zorder=zorder)[0]
-    ax.plot(xs, ys, color=fill, lw=width - 2.4, solid_capstyle="round", zorder=zorder + 0.01, **options)
-    return outline
-
-
-def _joint(ax, at, zorder=4.5, size=8.0):
-    """Revolute joint seen along its axis: a circle with a dot, the axis pointing to the reader."""
-    ax.plot(*at, "o", ms=size, mfc="white", mec=INK, mew=1.3, zorder=zorder)
-    ax.plot(*at, "o", ms=size * 0.26, color=INK, zorder=zorder)
-
-
-def _ground(ax, at, width, depth=None, upright=True):
-    """Hatched ground under the point `at`; behind a wall-mounted joint with ``upright=False``."""
-    x, y = at
-    depth = depth or width * 0.18
-    ax.plot([x - width / 2, x + width / 2], [y, y], color=INK, lw=1.4, zorder=2)
-    for foot in np.linspace(x - width / 2 + depth, x + width / 2, 7):
-        ax.plot([foot, foot - depth], [y, y - depth], color=INK, lw=0.8, zorder=2)
-
-
-def _target(ax, at, label=None, away=(0, 0)):
-    ax.plot(*at, marker="o", ms=15, mfc="none", mec=INK, mew=1.3, zorder=7)
-    ax.plot(*at, marker="+", ms=21, color=INK, mew=1.3, zorder=7)
-    if label:
-        _text(ax, np.asarray(at) + away, label)
-
-
-def _arm(ax, points, fill, zorder=3.0, width=13.0):
-    outline = None
-    for start, end in zip(points[-2::-1], points[:0:-1]):
-        outline = _link(ax, start, end, fill, width, zorder)
-    for point in points[:-1]:
-        _joint(ax, point, zorder + 0.5)
-    return outline
-
-
-def in_degrees(angle: float) -> str:
-    """An angle in radians as text in whole degrees, with a proper minus sign."""
-    return f"{np.degrees(angle):.0f}°".replace("-", "\N{MINUS SIGN}")
-
-
 # ---------------------------------------------------------------- planar arms
 
 
-@styled
+@strokes.styled
 def draw_planar_arm(lengths, q, ax=None, *, length_names=None, angle_names=None, hand="P", projections=False):
     """A planar arm of n revolute joints with its joint angles and link lengths.
 
@@ -285,52 +61,51 @@ def draw_planar_arm(lengths, q, ax=None, *, length_names=None, angle_names=None,
     -------
     matplotlib Axes
     """
-    lengths = _lengths(lengths, "lengths", (None,))
+    lengths = strokes.as_lengths(lengths, "lengths", (None,))
     points = planar_points(lengths, q)
-    q = as_numbers(q, "joint angles", (len(lengths),))
+    q = strokes.as_numbers(q, "joint angles", (len(lengths),))
     n = len(q)
     length_names = length_names or [f"L_{i + 1}" for i in range(n)]
     angle_names = angle_names or [rf"\theta_{i + 1}" for i in range(n)]
-    ax = ax or _new_axes()
-    _plane(ax)
+    ax = ax or strokes.new_axes()
+    strokes.show_plane(ax)
     total, heading = lengths.sum(), np.concatenate([[0], np.cumsum(q)])
-    _arm(ax, points, POSTURE_SHADES[0])
+    strokes.arm(ax, points, strokes.POSTURE_SHADES[0])
     for i in range(n):
         reach = 0.42 * lengths[i]
         start = points[i]
         if i:
-            ax.plot(*zip(start, start + 1.25 * reach * _unit(heading[i])), color=SOFT, lw=1, ls=CENTRE_LINE, zorder=2)
+            ax.plot(
+                *zip(start, start + 1.25 * reach * strokes.unit_vector(heading[i])),
+                color=strokes.SOFT,
+                lw=1,
+                ls=strokes.CENTRE_LINE,
+                zorder=2,
+            )
         away = 1 + 0.1 * total / reach
-        _angle(ax, start, reach * 0.8, heading[i], q[i], angle_names[i], away)
-        side = np.sign(q[i] or 1) * _unit(heading[i + 1] + np.pi / 2)
-        _text(ax, (points[i] + points[i + 1]) / 2 + 0.075 * total * side, f"${length_names[i]}$")
-    ax.plot(*points[-1], "o", ms=7, color=INK, zorder=6)
+        strokes.angle_arc(ax, start, reach * 0.8, heading[i], q[i], angle_names[i], away)
+        side = np.sign(q[i] or 1) * strokes.unit_vector(heading[i + 1] + np.pi / 2)
+        strokes.write(ax, (points[i] + points[i + 1]) / 2 + 0.075 * total * side, f"${length_names[i]}$")
+    ax.plot(*points[-1], "o", ms=7, color=strokes.INK, zorder=6)
     if hand:
-        _text(ax, points[-1] + 0.08 * total * _unit(heading[-1]), f"${hand}$")
+        strokes.write(ax, points[-1] + 0.08 * total * strokes.unit_vector(heading[-1]), f"${hand}$")
     if projections:
         x, y = points[-1]
-        ax.plot([x, x, 0], [0, y, y], color=SOFT, lw=1, ls=(0, (2, 2)), zorder=1.5)
-        _text(ax, (x + 0.045 * total, 0.045 * total * np.sign(y or 1)), "$x$")
-        _text(ax, (0.045 * total * np.sign(x or 1), y + 0.045 * total), "$y$")
+        ax.plot([x, x, 0], [0, y, y], color=strokes.SOFT, lw=1, ls=(0, (2, 2)), zorder=1.5)
+        strokes.write(ax, (x + 0.045 * total, 0.045 * total * np.sign(y or 1)), "$x$")
+        strokes.write(ax, (0.045 * total * np.sign(x or 1), y + 0.045 * total), "$y$")
     _plane_axes(ax, total)
-    _leave_room(ax, 0.16 * total)
+    strokes.leave_room(ax, 0.16 * total)
     return ax
-
-
-def _leave_room(ax, room):
-    """Widen the view by `room` on each side, so that labels lie inside the grid."""
-    ax.autoscale_view()
-    for limits, setter in ((ax.dataLim.intervalx, ax.set_xlim), (ax.dataLim.intervaly, ax.set_ylim)):
-        setter(limits[0] - room, limits[1] + room)
 
 
 def _plane_axes(ax, total):
     """The axes x0, y0 of the base."""
     for letter, angle in (("x", 0), ("y", np.pi / 2)):
-        _axis_arrow(ax, (0, 0), angle, 0.24 * total, letter, f"{letter}_0", away=0.22)
+        strokes.axis_arrow(ax, (0, 0), angle, 0.24 * total, letter, f"{letter}_0", away=0.22)
 
 
-@styled
+@strokes.styled
 def draw_postures(lengths, solutions, target=None, ax=None, *, symmetry=False):
     """All postures of a planar 2R arm that reach one point, shaded differently and numbered at the elbow.
 
@@ -348,30 +123,30 @@ def draw_postures(lengths, solutions, target=None, ax=None, *, symmetry=False):
     matplotlib Axes
         With one legend entry per posture.
     """
-    lengths = _lengths(lengths, "lengths", (2,))
-    solutions = as_numbers(
+    lengths = strokes.as_lengths(lengths, "lengths", (2,))
+    solutions = strokes.as_numbers(
         np.reshape(solutions, (0, 2)) if np.size(solutions) == 0 else solutions, "solutions", (None, 2)
     )
-    goal = None if target is None else as_numbers(target, "target", (2,))
-    ax = ax or _new_axes()
-    _plane(ax)
+    goal = None if target is None else strokes.as_numbers(target, "target", (2,))
+    ax = ax or strokes.new_axes()
+    strokes.show_plane(ax)
     total = lengths.sum()
     shaded = []
     for k, (t1, t2) in enumerate(solutions):
         points = planar_points(lengths, (t1, t2))
-        fill = POSTURE_SHADES[k % len(POSTURE_SHADES)]
-        outline = _arm(ax, points, fill, zorder=3 + k)
-        outline.set_label(f"{k + 1}:  $t_1$ = {in_degrees(t1)},  $t_2$ = {in_degrees(t2)}")
+        fill = strokes.POSTURE_SHADES[k % len(strokes.POSTURE_SHADES)]
+        outline = strokes.arm(ax, points, fill, zorder=3 + k)
+        outline.set_label(f"{k + 1}:  $t_1$ = {strokes.in_degrees(t1)},  $t_2$ = {strokes.in_degrees(t2)}")
         shaded.append((outline, fill))
         out = points[1] - 0.5 * points[2]
         out = out / (np.hypot(*out) or 1)
-        _text(ax, points[1] + 0.11 * total * out, str(k + 1), fontweight="bold")
+        strokes.write(ax, points[1] + 0.11 * total * out, str(k + 1), fontweight="bold")
     if symmetry and goal is not None:
-        ax.plot(*zip((0, 0), 1.12 * goal), color=SOFT, lw=1.1, ls=CENTRE_LINE, zorder=2)
+        ax.plot(*zip((0, 0), 1.12 * goal), color=strokes.SOFT, lw=1.1, ls=strokes.CENTRE_LINE, zorder=2)
     if goal is not None:
-        _target(ax, goal)
+        strokes.target_mark(ax, goal)
     ax.update_datalim([(0, 0)])
-    _leave_room(ax, 0.16 * total)
+    strokes.leave_room(ax, 0.16 * total)
     if shaded:
         _posture_legend(ax, shaded)
     return ax
@@ -379,7 +154,7 @@ def draw_postures(lengths, solutions, target=None, ax=None, *, symmetry=False):
 
 def _posture_legend(ax, shaded):
     """Legend with a shaded box per posture (the link's outline alone would show as a black line)."""
-    boxes = [Rectangle((0, 0), 1, 1, facecolor=fill, edgecolor=INK) for _, fill in shaded]
+    boxes = [Rectangle((0, 0), 1, 1, facecolor=fill, edgecolor=strokes.INK) for _, fill in shaded]
     _legend_below(ax, boxes, [outline.get_label() for outline, _ in shaded])
 
 
@@ -395,7 +170,7 @@ def _legend_below(ax, handles, labels, columns=2):
     )
 
 
-@styled
+@strokes.styled
 def draw_workspace_2r(lengths, limits=None, ax=None, *, names=True):
     """Workspace of a planar 2R arm: the ring between the inner and the outer limit.
 
@@ -411,21 +186,23 @@ def draw_workspace_2r(lengths, limits=None, ax=None, *, names=True):
     -------
     matplotlib Axes
     """
-    lengths = _lengths(lengths, "lengths", (2,))
-    limits = None if limits is None else as_numbers(limits, "limits", (2, 2))
+    lengths = strokes.as_lengths(lengths, "lengths", (2,))
+    limits = None if limits is None else strokes.as_numbers(limits, "limits", (2, 2))
     inner, outer = abs(lengths[0] - lengths[1]), lengths.sum()
-    ax = ax or _new_axes((4.8, 4.8))
-    _plane(ax)
-    ax.add_patch(Circle((0, 0), outer, facecolor="#eeeeee", edgecolor=INK, lw=1.6, zorder=1))
+    ax = ax or strokes.new_axes((4.8, 4.8))
+    strokes.show_plane(ax)
+    ax.add_patch(Circle((0, 0), outer, facecolor="#eeeeee", edgecolor=strokes.INK, lw=1.6, zorder=1))
     if inner > 1e-9:
-        ax.add_patch(Circle((0, 0), inner, facecolor="white", edgecolor=INK, lw=1.6, ls=(0, (5, 2)), zorder=1.6))
+        ax.add_patch(
+            Circle((0, 0), inner, facecolor="white", edgecolor=strokes.INK, lw=1.6, ls=(0, (5, 2)), zorder=1.6)
+        )
     if limits is not None:
         ax.add_collection(_swept_area(lengths, limits))
     if names:
         _radius(ax, outer, np.radians(28), r"r_\mathrm{max} = L_1 + L_2")
     if names and inner > 1e-9:
-        _radius(ax, inner, np.radians(-62), r"r_\mathrm{min} = |L_1 - L_2|", beyond=True)
-    _joint(ax, (0, 0))
+        _radius(ax, inner, np.radians(-62), r"r_\mathrm{min} = |L_1 - L_2|", beyond=0.15 * outer)
+    strokes.joint(ax, (0, 0))
     ax.set_xlim(-1.12 * outer, 1.12 * outer)
     ax.set_ylim(-1.12 * outer, 1.12 * outer)
     return ax
@@ -443,18 +220,20 @@ def _swept_area(lengths, limits, cells=60) -> PolyCollection:
     return PolyCollection(patches.reshape(-1, 4, 2), facecolor="#bdbdbd", edgecolor="#bdbdbd", lw=0.4, zorder=1.4)
 
 
-def _radius(ax, radius, angle, label, beyond=False):
-    end = radius * _unit(angle)
-    _arrow(ax, (0, 0), end, width=1.1, zorder=4)
+def _radius(ax, radius, angle, label, beyond=0.0):
+    end = radius * strokes.unit_vector(angle)
+    strokes.arrow(ax, (0, 0), end, width=1.1, zorder=4)
     turn = (np.degrees(angle) + 90) % 180 - 90
     if beyond:
-        _text(ax, end + 0.13 * _unit(angle), f"${label}$", fontsize=10, ha="left")
+        strokes.write(ax, end + beyond * strokes.unit_vector(angle), f"${label}$", fontsize=10, ha="left")
     else:
         side = np.array([-np.sin(angle), np.cos(angle)])
-        _text(ax, end / 2 + 0.07 * radius * side, f"${label}$", fontsize=10, rotation=turn, rotation_mode="anchor")
+        strokes.write(
+            ax, end / 2 + 0.07 * radius * side, f"${label}$", fontsize=10, rotation=turn, rotation_mode="anchor"
+        )
 
 
-@styled
+@strokes.styled
 def draw_triangle_2r(lengths, q, ax=None):
     """The triangle behind "find q1": direction of the target, and the angle from link 1 to it.
 
@@ -468,59 +247,61 @@ def draw_triangle_2r(lengths, q, ax=None):
     -------
     matplotlib Axes
     """
-    lengths = _lengths(lengths, "lengths", (2,))
-    q = as_numbers(q, "joint angles", (2,))
+    lengths = strokes.as_lengths(lengths, "lengths", (2,))
+    q = strokes.as_numbers(q, "joint angles", (2,))
     points = planar_points(lengths, q)
     elbow, hand = points[1], points[2]
-    along, total = _unit(q[0]), lengths.sum()
+    along, total = strokes.unit_vector(q[0]), lengths.sum()
     foot = along * (hand @ along)
-    ax = ax or _new_axes((5.4, 4.4))
-    _plane(ax)
-    _arm(ax, points, POSTURE_SHADES[0], width=11)
-    ax.plot(*zip((0, 0), hand), color=INK, lw=1.2, ls=CENTRE_LINE, zorder=5)
-    ax.plot(*zip(elbow, foot), color=INK, lw=1.1, ls=(0, (4, 2)), zorder=2)
-    ax.plot(*zip(hand, foot), color=INK, lw=1.1, ls=(0, (4, 2)), zorder=2)
+    ax = ax or strokes.new_axes((5.4, 4.4))
+    strokes.show_plane(ax)
+    strokes.arm(ax, points, strokes.POSTURE_SHADES[0], width=11)
+    ax.plot(*zip((0, 0), hand), color=strokes.INK, lw=1.2, ls=strokes.CENTRE_LINE, zorder=5)
+    ax.plot(*zip(elbow, foot), color=strokes.INK, lw=1.1, ls=(0, (4, 2)), zorder=2)
+    ax.plot(*zip(hand, foot), color=strokes.INK, lw=1.1, ls=(0, (4, 2)), zorder=2)
     corner = 0.035 * total
     across = (hand - foot) / np.hypot(*(hand - foot))
     inward = -along
     ax.plot(
         *zip(foot + corner * inward, foot + corner * (inward + across), foot + corner * across),
-        color=INK,
+        color=strokes.INK,
         lw=0.9,
         zorder=2,
     )
     direction = np.arctan2(hand[1], hand[0])
-    _angle(ax, (0, 0), 0.62 * lengths[0], 0, direction, "")
-    _text(ax, 0.68 * lengths[0] * _unit(0.17), r"$\mathrm{atan2}(y, x)$", ha="left")
-    _angle(ax, (0, 0), 0.34 * lengths[0], 0, q[0], r"\theta_1", 1.3)
-    _angle(ax, (0, 0), 0.85 * lengths[0], q[0], direction - q[0], r"\gamma", 1.1)
-    _angle(ax, elbow, 0.22 * lengths[1], q[0], q[1], r"\theta_2", 1.5)
-    _text(
+    strokes.angle_arc(ax, (0, 0), 0.62 * lengths[0], 0, direction, "")
+    strokes.write(ax, 0.68 * lengths[0] * strokes.unit_vector(0.17), r"$\mathrm{atan2}(y, x)$", ha="left")
+    strokes.angle_arc(ax, (0, 0), 0.34 * lengths[0], 0, q[0], r"\theta_1", 1.3)
+    strokes.angle_arc(ax, (0, 0), 0.85 * lengths[0], q[0], direction - q[0], r"\gamma", 1.1)
+    strokes.angle_arc(ax, elbow, 0.22 * lengths[1], q[0], q[1], r"\theta_2", 1.5)
+    strokes.write(
         ax,
         (elbow + foot) / 2 - 0.07 * total * across,
         r"$L_2 \cos\theta_2$",
         rotation=np.degrees(q[0]),
         rotation_mode="anchor",
     )
-    _text(
+    strokes.write(
         ax,
         (hand + foot) / 2 + 0.05 * total * along,
         r"$L_2 \sin\theta_2$",
         rotation=np.degrees(q[0]) - 90,
         rotation_mode="anchor",
     )
-    _text(ax, 0.8 * elbow - 0.075 * total * across, "$L_1$")
-    _text(ax, (elbow + hand) / 2 + 0.07 * total * _unit(q[0] + q[1] + np.pi / 2) * np.sign(q[1]), "$L_2$")
-    _text(ax, hand * (1 + 0.09 * total / np.hypot(*hand)), "$(x, y)$")
+    strokes.write(ax, 0.8 * elbow - 0.075 * total * across, "$L_1$")
+    strokes.write(
+        ax, (elbow + hand) / 2 + 0.07 * total * strokes.unit_vector(q[0] + q[1] + np.pi / 2) * np.sign(q[1]), "$L_2$"
+    )
+    strokes.write(ax, hand * (1 + 0.09 * total / np.hypot(*hand)), "$(x, y)$")
     _plane_axes(ax, total)
-    _leave_room(ax, 0.14 * total)
+    strokes.leave_room(ax, 0.14 * total)
     return ax
 
 
 # ---------------------------------------------------------------- kinematic sketches of the SCARA
 
 
-@styled
+@strokes.styled
 def draw_scara_side(a2=0.4, a3=0.3, d2=0.18, ax=None, *, frames=True):
     """Kinematic sketch of the SCARA from the side, at t1 = t2 = t4 = 0: axes, frames 0 to 4, a2, a3 and d2.
 
@@ -537,24 +318,24 @@ def draw_scara_side(a2=0.4, a3=0.3, d2=0.18, ax=None, *, frames=True):
     -------
     matplotlib Axes
     """
-    a2, a3 = _lengths([a2, a3], "a2 and a3", (2,))
-    d2 = float(as_numbers(d2, "d2", ()))
-    ax = ax or _new_axes((6.6, 4.6))
-    _sketch(ax)
+    a2, a3 = strokes.as_lengths([a2, a3], "a2 and a3", (2,))
+    d2 = float(strokes.as_numbers(d2, "d2", ()))
+    ax = ax or strokes.new_axes((6.6, 4.6))
+    strokes.show_bare(ax)
     unit = (a2 + a3) / 0.7
     floor, top, low = -0.36 * unit, 0.27 * unit, -0.42 * unit
     joints = np.array([0, a2, a2 + a3])
     names = ("Z_0, Z_1", "Z_2", "Z_3, Z_4")
     for x, name in zip(joints, names):
         bottom = floor if x == 0 else min(low, -d2 - 0.13 * unit)
-        ax.plot([x, x], [bottom, top - 0.04 * unit], color=SOFT, lw=1, ls=CENTRE_LINE, zorder=1)
-        _text(ax, (x, top), f"${name}$", color=AXIS_COLOURS["z"] if frames else INK)
-    _ground(ax, (0, floor), 0.24 * unit, 0.035 * unit)
+        ax.plot([x, x], [bottom, top - 0.04 * unit], color=strokes.SOFT, lw=1, ls=strokes.CENTRE_LINE, zorder=1)
+        strokes.write(ax, (x, top), f"${name}$", color=strokes.AXIS_COLOURS["z"] if frames else strokes.INK)
+    strokes.ground(ax, (0, floor), 0.24 * unit, 0.035 * unit)
     _bar(ax, (0, floor), (0, 0))
     _bar(ax, (0, 0), (a2, 0))
     _bar(ax, (a2, 0), (a2 + a3, 0))
     hand = (a2 + a3, -d2)
-    ax.plot([hand[0]] * 2, [0.11 * unit, -d2], color=INK, lw=4, zorder=3.2, solid_capstyle="butt")
+    ax.plot([hand[0]] * 2, [0.11 * unit, -d2], color=strokes.INK, lw=4, zorder=3.2, solid_capstyle="butt")
     _revolute_side(ax, (0, 0), unit)
     _revolute_side(ax, (a2, 0), unit)
     _prismatic_side(ax, (a2 + a3, 0), unit)
@@ -566,13 +347,13 @@ def draw_scara_side(a2=0.4, a3=0.3, d2=0.18, ax=None, *, frames=True):
             first, *rest = index.split(", ")
             x_name = ", ".join(f"X_{i}" for i in [first, *rest])
             side = np.array(origin)
-            _arrow(ax, side, side + (size, 0), AXIS_COLOURS["x"])
-            _text(ax, side + (size * 1.0, 0.045 * unit), f"${x_name}$", color=AXIS_COLOURS["x"])
-            _arrow(ax, side, side + (0, size), AXIS_COLOURS["z"])
+            strokes.arrow(ax, side, side + (size, 0), strokes.AXIS_COLOURS["x"])
+            strokes.write(ax, side + (size * 1.0, 0.045 * unit), f"${x_name}$", color=strokes.AXIS_COLOURS["x"])
+            strokes.arrow(ax, side, side + (0, size), strokes.AXIS_COLOURS["z"])
             origin_name = ", ".join(f"O_{i}" for i in [first, *rest])
-            _text(ax, side + (-0.05 * unit, -0.065 * unit), f"${origin_name}$", ha="right")
-    _dimension(ax, (0, 0), (a2, 0), "a_2", 0.2 * unit)
-    _dimension(ax, (a2, 0), (a2 + a3, 0), "a_3", 0.2 * unit)
+            strokes.write(ax, side + (-0.05 * unit, -0.065 * unit), f"${origin_name}$", ha="right")
+    strokes.dimension(ax, (0, 0), (a2, 0), "a_2", 0.2 * unit)
+    strokes.dimension(ax, (a2, 0), (a2 + a3, 0), "a_3", 0.2 * unit)
     if abs(d2) > 0.02 * unit:
         _depth(ax, a2 + a3, d2, unit)
     ax.set_xlim(-0.22 * unit, a2 + a3 + 0.3 * unit)
@@ -584,13 +365,13 @@ def _depth(ax, x, d2, unit):
     """The dimension d2: one arrow head, pointing the way in which d2 is counted."""
     right = x + 0.21 * unit
     for y in (0, -d2):
-        ax.plot([x + 0.05 * unit, right + 0.025 * unit], [y, y], color=SOFT, lw=0.7, zorder=1)
-    _arrow(ax, (right, 0), (right, -d2), width=1.2)
-    _text(ax, (right + 0.05 * unit, -d2 / 2), "$d_2$")
+        ax.plot([x + 0.05 * unit, right + 0.025 * unit], [y, y], color=strokes.SOFT, lw=0.7, zorder=1)
+    strokes.arrow(ax, (right, 0), (right, -d2), width=1.2)
+    strokes.write(ax, (right + 0.05 * unit, -d2 / 2), "$d_2$")
 
 
 def _bar(ax, start, end):
-    ax.plot(*zip(start, end), color=INK, lw=3.2, zorder=2, solid_capstyle="butt")
+    ax.plot(*zip(start, end), color=strokes.INK, lw=3.2, zorder=2, solid_capstyle="butt")
 
 
 def _revolute_side(ax, at, unit):
@@ -598,7 +379,13 @@ def _revolute_side(ax, at, unit):
     width, height = 0.05 * unit, 0.085 * unit
     ax.add_patch(
         Rectangle(
-            (at[0] - width / 2, at[1] - height / 2), width, height, facecolor="white", edgecolor=INK, lw=1.5, zorder=3.5
+            (at[0] - width / 2, at[1] - height / 2),
+            width,
+            height,
+            facecolor="white",
+            edgecolor=strokes.INK,
+            lw=1.5,
+            zorder=3.5,
         )
     )
 
@@ -608,22 +395,30 @@ def _prismatic_side(ax, at, unit):
     side = 0.085 * unit
     ax.add_patch(
         Rectangle(
-            (at[0] - side / 2, at[1] - side / 2), side, side, facecolor="white", edgecolor=INK, lw=1.5, zorder=3.1
+            (at[0] - side / 2, at[1] - side / 2),
+            side,
+            side,
+            facecolor="white",
+            edgecolor=strokes.INK,
+            lw=1.5,
+            zorder=3.1,
         )
     )
     for x in (-side / 2, side / 2):
-        ax.plot([at[0] + x * 0.55] * 2, [at[1] - side / 2, at[1] + side / 2], color=INK, lw=0.8, zorder=3.15)
+        ax.plot([at[0] + x * 0.55] * 2, [at[1] - side / 2, at[1] + side / 2], color=strokes.INK, lw=0.8, zorder=3.15)
 
 
 def _gripper(ax, at, unit):
     w, h = 0.045 * unit, 0.05 * unit
     x, y = at[0], at[1] - 0.034 * unit
-    ax.plot([x, x], [y, y - 0.02 * unit], color=INK, lw=3.2, zorder=2)
+    ax.plot([x, x], [y, y - 0.02 * unit], color=strokes.INK, lw=3.2, zorder=2)
     y -= 0.02 * unit
-    ax.plot([x - w, x - w, x + w, x + w], [y - h, y, y, y - h], color=INK, lw=1.8, zorder=3, solid_joinstyle="miter")
+    ax.plot(
+        [x - w, x - w, x + w, x + w], [y - h, y, y, y - h], color=strokes.INK, lw=1.8, zorder=3, solid_joinstyle="miter"
+    )
 
 
-@styled
+@strokes.styled
 def draw_scara_top(q=(np.radians(35), np.radians(50), np.radians(-40)), a2=0.4, a3=0.3, ax=None, *, frames=True):
     """The SCARA from above: the planar arm of joints 1 and 2, and the hand turned by joint 4.
 
@@ -639,13 +434,13 @@ def draw_scara_top(q=(np.radians(35), np.radians(50), np.radians(-40)), a2=0.4, 
     -------
     matplotlib Axes
     """
-    t1, t2, t4 = as_numbers(q, "t1, t2, t4", (3,))
-    lengths = _lengths([a2, a3], "a2 and a3", (2,))
+    t1, t2, t4 = strokes.as_numbers(q, "t1, t2, t4", (3,))
+    lengths = strokes.as_lengths([a2, a3], "a2 and a3", (2,))
     points = planar_points(lengths, (t1, t2))
     unit = lengths.sum()
-    ax = ax or _new_axes((6.0, 5.0))
-    _sketch(ax)
-    _arm(ax, points, POSTURE_SHADES[0], width=15)
+    ax = ax or strokes.new_axes((6.0, 5.0))
+    strokes.show_bare(ax)
+    strokes.arm(ax, points, strokes.POSTURE_SHADES[0], width=15)
     heading = np.cumsum([t1, t2, t4])
     _hand_top(ax, points[2], heading[2], unit)
     size = 0.24 * unit
@@ -655,29 +450,41 @@ def draw_scara_top(q=(np.radians(35), np.radians(50), np.radians(-40)), a2=0.4, 
         (points[2], heading[1], t4, r"\theta_4"),
     )
     for k, (centre, start, sweep, name) in enumerate(lines):
-        ax.plot(*zip(centre, centre + 1.15 * size * _unit(start)), color=SOFT, lw=1, ls=CENTRE_LINE, zorder=2)
-        _angle(ax, centre, (0.62, 0.62, 0.72)[k] * size, start, sweep, name, 1.38)
+        ax.plot(
+            *zip(centre, centre + 1.15 * size * strokes.unit_vector(start)),
+            color=strokes.SOFT,
+            lw=1,
+            ls=strokes.CENTRE_LINE,
+            zorder=2,
+        )
+        strokes.angle_arc(ax, centre, (0.62, 0.62, 0.72)[k] * size, start, sweep, name, 1.38)
     if frames:
-        _axis_arrow(ax, (0, 0), 0, 1.35 * size, "x", "X_0")
-        _axis_arrow(ax, (0, 0), np.pi / 2, 1.1 * size, "y", "Y_0")
-        _axis_arrow(ax, points[0], heading[0], 1.1 * size, "x", "", away=0)
-        _text(
+        strokes.axis_arrow(ax, (0, 0), 0, 1.35 * size, "x", "X_0")
+        strokes.axis_arrow(ax, (0, 0), np.pi / 2, 1.1 * size, "y", "Y_0")
+        strokes.axis_arrow(ax, points[0], heading[0], 1.1 * size, "x", "", away=0)
+        strokes.write(
             ax,
-            points[0] + size * _unit(heading[0]) + 0.11 * unit * _unit(heading[0] + np.pi / 2),
+            points[0]
+            + size * strokes.unit_vector(heading[0])
+            + 0.11 * unit * strokes.unit_vector(heading[0] + np.pi / 2),
             "$X_1$",
-            color=AXIS_COLOURS["x"],
+            color=strokes.AXIS_COLOURS["x"],
         )
-        _axis_arrow(ax, points[1], heading[1], 1.0 * size, "x", "", away=0)
-        _text(
+        strokes.axis_arrow(ax, points[1], heading[1], 1.0 * size, "x", "", away=0)
+        strokes.write(
             ax,
-            points[1] + 0.8 * size * _unit(heading[1]) + 0.11 * unit * _unit(heading[1] + np.pi / 2),
+            points[1]
+            + 0.8 * size * strokes.unit_vector(heading[1])
+            + 0.11 * unit * strokes.unit_vector(heading[1] + np.pi / 2),
             "$X_2$",
-            color=AXIS_COLOURS["x"],
+            color=strokes.AXIS_COLOURS["x"],
         )
-        _axis_arrow(ax, points[2], heading[2], 1.2 * size, "x", "X_4")
-        _text(ax, points[2] + 1.32 * size * _unit(heading[1]), "$X_3$", color=AXIS_COLOURS["x"])
-    _dimension(ax, points[0], points[1], "a_2", -0.15 * unit)
-    _dimension(ax, points[1], points[2], "a_3", -0.15 * unit)
+        strokes.axis_arrow(ax, points[2], heading[2], 1.2 * size, "x", "X_4")
+        strokes.write(
+            ax, points[2] + 1.32 * size * strokes.unit_vector(heading[1]), "$X_3$", color=strokes.AXIS_COLOURS["x"]
+        )
+    strokes.dimension(ax, points[0], points[1], "a_2", -0.15 * unit)
+    strokes.dimension(ax, points[1], points[2], "a_3", -0.15 * unit)
     ax.margins(0.06)
     return ax
 
@@ -686,14 +493,14 @@ def _hand_top(ax, at, heading, unit):
     """Quill from above: a square (prismatic) with a bar across, the hand."""
     side = 0.045 * unit
     corners = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * side
-    turn = np.array([_unit(heading), _unit(heading + np.pi / 2)])
-    ax.add_patch(Polygon(at + corners @ turn, facecolor="white", edgecolor=INK, lw=1.4, zorder=5))
-    across = 1.7 * side * _unit(heading + np.pi / 2)
-    ax.plot(*zip(at - across, at + across), color=INK, lw=2.4, zorder=5.2)
-    ax.plot(*at, "o", ms=3, color=INK, zorder=6)
+    turn = np.array([strokes.unit_vector(heading), strokes.unit_vector(heading + np.pi / 2)])
+    ax.add_patch(Polygon(at + corners @ turn, facecolor="white", edgecolor=strokes.INK, lw=1.4, zorder=5))
+    across = 1.7 * side * strokes.unit_vector(heading + np.pi / 2)
+    ax.plot(*zip(at - across, at + across), color=strokes.INK, lw=2.4, zorder=5.2)
+    ax.plot(*at, "o", ms=3, color=strokes.INK, zorder=6)
 
 
-@styled
+@strokes.styled
 def draw_scara_projections(q=(np.radians(62), np.radians(-38)), a2=0.4, a3=0.3, ax=None):
     """Top view of the SCARA with both links projected on the base axes: the geometric check of the model.
 
@@ -709,149 +516,48 @@ def draw_scara_projections(q=(np.radians(62), np.radians(-38)), a2=0.4, a3=0.3, 
     -------
     matplotlib Axes
     """
-    q = as_numbers(q, "t1 and t2", (2,))
-    lengths = _lengths([a2, a3], "a2 and a3", (2,))
+    q = strokes.as_numbers(q, "t1 and t2", (2,))
+    lengths = strokes.as_lengths([a2, a3], "a2 and a3", (2,))
     points = planar_points(lengths, q)
     elbow, hand = points[1], points[2]
     unit = lengths.sum()
-    ax = ax or _new_axes((6.4, 5.4))
-    _sketch(ax)
-    _arm(ax, points, POSTURE_SHADES[0])
-    ax.plot(*hand, "o", ms=7, color=INK, zorder=6)
-    _axis_arrow(ax, (0, 0), 0, hand[0] + 0.2 * unit, "x", "X_0", away=0.05, neck=0.97)
-    _axis_arrow(ax, (0, 0), np.pi / 2, hand[1] + 0.2 * unit, "y", "Y_0", away=0.06, neck=0.97)
+    ax = ax or strokes.new_axes((6.4, 5.4))
+    strokes.show_bare(ax)
+    strokes.arm(ax, points, strokes.POSTURE_SHADES[0])
+    ax.plot(*hand, "o", ms=7, color=strokes.INK, zorder=6)
+    strokes.axis_arrow(ax, (0, 0), 0, hand[0] + 0.2 * unit, "x", "X_0", away=0.05, neck=0.97)
+    strokes.axis_arrow(ax, (0, 0), np.pi / 2, hand[1] + 0.2 * unit, "y", "Y_0", away=0.06, neck=0.97)
     for point in (elbow, hand):
-        ax.plot([point[0], point[0], 0], [0, point[1], point[1]], color=SOFT, lw=1, ls=(0, (3, 2)), zorder=1.5)
+        ax.plot([point[0], point[0], 0], [0, point[1], point[1]], color=strokes.SOFT, lw=1, ls=(0, (3, 2)), zorder=1.5)
     for at, name, away in (
         ((elbow[0], 0), "A", (0.035, 0.035)), ((hand[0], 0), "B", (0.035, 0.035)),
         ((0, elbow[1]), "C", (0.035, -0.035)), ((0, hand[1]), "D", (0.035, 0.035)),
     ):  # fmt: skip
-        ax.plot(*at, "o", ms=4, color=INK, zorder=7)
-        _text(ax, np.array(at) + unit * np.array(away), f"${name}$")
+        ax.plot(*at, "o", ms=4, color=strokes.INK, zorder=7)
+        strokes.write(ax, np.array(at) + unit * np.array(away), f"${name}$")
     low = -0.11 * unit
-    _dimension(ax, (0, 0), (elbow[0], 0), r"a_2 \cos\theta_1", low)
-    _dimension(ax, (elbow[0], 0), (hand[0], 0), r"a_3 \cos(\theta_1 + \theta_2)", low)
-    _dimension(ax, (0, 0), (0, elbow[1]), r"a_2 \sin\theta_1", 0.11 * unit, beside=True)
-    _dimension(ax, (0, elbow[1]), (0, hand[1]), r"a_3 \sin(\theta_1 + \theta_2)", 0.11 * unit, beside=True)
-    ax.plot(*zip(elbow, elbow + 0.34 * unit * _unit(q[0])), color=SOFT, lw=1, ls=CENTRE_LINE, zorder=2)
-    ax.plot(*zip(elbow, elbow + (0.26 * unit, 0)), color=SOFT, lw=0.8, ls=(0, (3, 2)), zorder=1.5)
-    _angle(ax, (0, 0), 0.17 * unit, 0, q[0], r"\theta_1", 1.4)
-    _angle(ax, elbow, 0.24 * unit, q[0], q[1], r"\theta_2 < 0" if q[1] < 0 else r"\theta_2", 1.42)
-    _text(ax, elbow / 2 + 0.07 * unit * _unit(q[0] + np.pi / 2), "$a_2$")
-    _text(ax, (elbow + hand) / 2 - 0.075 * unit * _unit(q.sum() + np.pi / 2), "$a_3$")
-    _text(ax, (0, 0) + unit * np.array([-0.045, -0.04]), "$O_0$")
+    strokes.dimension(ax, (0, 0), (elbow[0], 0), r"a_2 \cos\theta_1", low)
+    strokes.dimension(ax, (elbow[0], 0), (hand[0], 0), r"a_3 \cos(\theta_1 + \theta_2)", low)
+    strokes.dimension(ax, (0, 0), (0, elbow[1]), r"a_2 \sin\theta_1", 0.11 * unit, beside=True)
+    strokes.dimension(ax, (0, elbow[1]), (0, hand[1]), r"a_3 \sin(\theta_1 + \theta_2)", 0.11 * unit, beside=True)
+    ax.plot(
+        *zip(elbow, elbow + 0.34 * unit * strokes.unit_vector(q[0])),
+        color=strokes.SOFT,
+        lw=1,
+        ls=strokes.CENTRE_LINE,
+        zorder=2,
+    )
+    ax.plot(*zip(elbow, elbow + (0.26 * unit, 0)), color=strokes.SOFT, lw=0.8, ls=(0, (3, 2)), zorder=1.5)
+    strokes.angle_arc(ax, (0, 0), 0.17 * unit, 0, q[0], r"\theta_1", 1.4)
+    strokes.angle_arc(ax, elbow, 0.24 * unit, q[0], q[1], r"\theta_2 < 0" if q[1] < 0 else r"\theta_2", 1.42)
+    strokes.write(ax, elbow / 2 + 0.07 * unit * strokes.unit_vector(q[0] + np.pi / 2), "$a_2$")
+    strokes.write(ax, (elbow + hand) / 2 - 0.075 * unit * strokes.unit_vector(q.sum() + np.pi / 2), "$a_3$")
+    strokes.write(ax, (0, 0) + unit * np.array([-0.045, -0.04]), "$O_0$")
     ax.margins(0.05)
     return ax
 
 
 # ---------------------------------------------------------------- three dimensions
-
-
-class _Arrow3D(FancyArrowPatch):
-    """An arrow between two points in space with a head of constant size on paper."""
-
-    def __init__(self, start, end, **options):
-        super().__init__((0, 0), (0, 0), shrinkA=0, shrinkB=0, **options)
-        self._ends = np.array([start, end], dtype=float).T
-
-    def do_3d_projection(self, renderer=None):
-        xs, ys, zs = proj3d.proj_transform(*self._ends, self.axes.get_proj())
-        self.set_positions((xs[0], ys[0]), (xs[1], ys[1]))
-        return float(np.min(zs))
-
-
-class _TrimmedAxes3D(Axes3D):
-    """3D axes that may be larger than their figure: the figure's edges, not theirs, frame the picture."""
-
-    def get_tightbbox(self, *args, **kwargs):
-        return self.get_figure(root=True).bbox
-
-
-def _new_axes_3d(elev=22.0, azim=-60.0):
-    figure = plt.figure()
-    ax = figure.add_axes(_TrimmedAxes3D(figure, (0, 0, 1, 1), computed_zorder=False))
-    ax.view_init(elev=elev, azim=azim)
-    ax.set_proj_type("ortho")
-    ax.set_axis_off()
-    return ax
-
-
-def _fit(ax, points, own, width=6.2, height=5.0, pad=0.3):
-    """Equal scale on the three axes; if the figure is our `own`, trim it to `points` (sizes in inches)."""
-    points = np.asarray(points, float)
-    low, high = points.min(axis=0), points.max(axis=0)
-    half = np.maximum(high - low, 0.2 * (high - low).max()) / 2
-    for setter, centre, h in zip((ax.set_xlim, ax.set_ylim, ax.set_zlim), (low + high) / 2, half):
-        setter(centre - h, centre + h)
-    ax.set_box_aspect(half, zoom=0.75)
-    if not own:
-        return
-    projected = np.column_stack(proj3d.proj_transform(*points.T, ax.get_proj())[:2])
-    on_axes = ax.transAxes.inverted().transform(ax.transData.transform(projected))
-    start, extent = on_axes.min(axis=0), np.ptp(on_axes, axis=0)
-    side = min((width - 2 * pad) / extent[0], (height - 2 * pad) / extent[1])
-    size = side * extent + 2 * pad
-    ax.figure.set_size_inches(size)
-    ax.set_position((*(pad - side * start) / size, *side / size))
-
-
-def _arrow_3d(ax, start, end, colour=INK, dashes="-", width=1.6, zorder=6, style="-|>", scale=11):
-    start, end = np.asarray(start, float), np.asarray(end, float)
-    neck = start + 0.85 * (end - start)
-    if style == "-|>":
-        ax.plot(*zip(start, neck), color=colour, lw=width, ls=dashes, zorder=zorder)
-        start = start + 0.6 * (end - start)
-    arrow = _Arrow3D(start, end, arrowstyle=style, mutation_scale=scale, color=colour, lw=width, zorder=zorder)
-    if dashes != "-":
-        arrow.set_linestyle("none")
-    ax.add_patch(arrow)
-
-
-def _text_3d(ax, at, text, **options):
-    options = {"ha": "center", "va": "center", "fontsize": 11, "zorder": 9} | options
-    ax.text(*at, text, path_effects=_halo(), **options)
-
-
-def _solid(ax, outline, low, high, shade=0.85, zorder=1.0):
-    """Prism over a closed outline, shape (n, 2), between two heights."""
-    outline = np.asarray(outline)
-    bottom = np.column_stack([outline, np.full(len(outline), low)])
-    top = np.column_stack([outline, np.full(len(outline), high)])
-    sides = [[bottom[i], bottom[i + 1], top[i + 1], top[i]] for i in range(-1, len(outline) - 1)]
-    light = LightSource(azdeg=225, altdeg=50)
-    # One collection per polygon size: mplot3d pads mixed sizes with uninitialised numbers, which may overflow.
-    for faces in (sides, [top]):
-        paint = {"facecolors": str(shade), "linewidths": 0, "shade": True, "lightsource": light, "zorder": zorder}
-        ax.add_collection3d(Poly3DCollection(faces, **paint), autolim=False)
-    pen = {"color": INK, "lw": 0.7, "zorder": zorder + 0.01}
-    ax.plot(*np.vstack([top, top[:1]]).T, **pen)
-    seen = _towards_viewer(outline, ax.azim)
-    for i in range(-1, len(outline) - 1):
-        if seen[i]:
-            ax.plot(*bottom[[i, i + 1]].T, **pen)
-        if seen[i] != seen[i - 1]:
-            ax.plot(*np.array([bottom[i], top[i]]).T, **pen)
-
-
-def _towards_viewer(outline, azim) -> np.ndarray:
-    """For each edge of a counter-clockwise outline: does the wall on it face a viewer at `azim` degrees?"""
-    edges = np.roll(outline, -1, axis=0) - outline
-    return np.column_stack([edges[:, 1], -edges[:, 0]]) @ _unit(np.radians(azim)) > 0
-
-
-def _stadium(start, end, radius, n=16) -> np.ndarray:
-    """Outline of a link with round ends."""
-    start, end = np.asarray(start, float), np.asarray(end, float)
-    heading = np.arctan2(*(end - start)[::-1])
-    turn = np.linspace(np.pi / 2, 3 * np.pi / 2, n)
-    rear = start + radius * np.column_stack([np.cos(heading + turn), np.sin(heading + turn)])
-    front = end + radius * np.column_stack([np.cos(heading + turn + np.pi), np.sin(heading + turn + np.pi)])
-    return np.vstack([rear, front])
-
-
-def _disc(centre, radius, n=32) -> np.ndarray:
-    turn = np.linspace(0, 2 * np.pi, n, endpoint=False)
-    return np.asarray(centre) + radius * np.column_stack([np.cos(turn), np.sin(turn)])
 
 
 def _merged_axes(transforms, names, letters):
@@ -868,12 +574,12 @@ def _merged_axes(transforms, names, letters):
 def _draw_frames(ax, transforms, names, size, letters="xyz"):
     for letter, origin, direction, owners in _merged_axes(transforms, names, letters):
         end = origin + size * direction
-        _arrow_3d(ax, origin, end, AXIS_COLOURS[letter], AXIS_DASHES[letter])
+        strokes.arrow_3d(ax, origin, end, strokes.AXIS_COLOURS[letter], strokes.AXIS_DASHES[letter])
         label = ", ".join(f"{letter.upper()}_{{{name}}}" for name in owners)
-        _text_3d(ax, origin + 1.28 * size * direction, f"${label}$", color=AXIS_COLOURS[letter])
+        strokes.write_3d(ax, origin + 1.28 * size * direction, f"${label}$", color=strokes.AXIS_COLOURS[letter])
 
 
-@styled
+@strokes.styled
 def draw_frames_3d(transforms, names=None, ax=None, *, size=None, links=True, letters="xyz"):
     """Frames in space, joined in their order by grey links.
 
@@ -896,7 +602,7 @@ def draw_frames_3d(transforms, names=None, ax=None, *, size=None, links=True, le
     -------
     matplotlib Axes (3D)
     """
-    transforms = as_numbers(
+    transforms = strokes.as_numbers(
         [t.tolist() if isinstance(t, sympy.MatrixBase) else t for t in transforms], "transforms", (None, 4, 4)
     )
     names = [str(i) for i in range(len(transforms))] if names is None else list(names)
@@ -905,14 +611,14 @@ def draw_frames_3d(transforms, names=None, ax=None, *, size=None, links=True, le
     origins = transforms[:, :3, 3]
     extent = np.ptp(origins, axis=0).max()
     size = size or (0.22 * extent if extent > 0 else 1.0)
-    own, ax = ax is None, ax or _new_axes_3d()
+    own, ax = ax is None, ax or strokes.new_axes_3d()
     if links:
-        ax.plot(*origins.T, color=INK, lw=7, solid_capstyle="round", solid_joinstyle="round", zorder=1)
-        ax.plot(*origins.T, color=FAINT, lw=5, solid_capstyle="round", solid_joinstyle="round", zorder=1.1)
-    ax.plot(*origins.T, "o", ms=4, color=INK, ls="none", zorder=5)
+        ax.plot(*origins.T, color=strokes.INK, lw=7, solid_capstyle="round", solid_joinstyle="round", zorder=1)
+        ax.plot(*origins.T, color=strokes.FAINT, lw=5, solid_capstyle="round", solid_joinstyle="round", zorder=1.1)
+    ax.plot(*origins.T, "o", ms=4, color=strokes.INK, ls="none", zorder=5)
     _draw_frames(ax, transforms, names, size, letters)
     ends = (origins[:, None, :] + 1.35 * size * transforms[:, :3, :3].swapaxes(1, 2)).reshape(-1, 3)
-    _fit(ax, np.vstack([origins, ends]), own)
+    strokes.fit_3d(ax, np.vstack([origins, ends]), own)
     return ax
 
 
@@ -929,18 +635,18 @@ def scara_frames(q, a2, a3) -> np.ndarray:
     -------
     ndarray, shape (5, 4, 4)
     """
-    t1, t2, d2, t4 = as_numbers(q, "t1, t2, d2, t4", (4,))
+    t1, t2, d2, t4 = strokes.as_numbers(q, "t1, t2, d2, t4", (4,))
     points = planar_points([a2, a3], (t1, t2))
     origins = [(*points[0], 0), (*points[0], 0), (*points[1], 0), (*points[2], -d2), (*points[2], -d2)]
     headings = [0, t1, t1 + t2, t1 + t2, t1 + t2 + t4]
     frames = np.tile(np.eye(4), (5, 1, 1))
     for frame, origin, heading in zip(frames, origins, headings):
-        frame[:2, :2] = np.column_stack([_unit(heading), _unit(heading + np.pi / 2)])
+        frame[:2, :2] = np.column_stack([strokes.unit_vector(heading), strokes.unit_vector(heading + np.pi / 2)])
         frame[:3, 3] = origin
     return frames
 
 
-@styled
+@strokes.styled
 def draw_scara_3d(
     q=(np.radians(-25), np.radians(60), 0.2, np.radians(-55)), a2=0.4, a3=0.3, ax=None, *, frames=True, dimensions=True
 ):
@@ -958,64 +664,64 @@ def draw_scara_3d(
     -------
     matplotlib Axes (3D)
     """
-    a2, a3 = _lengths([a2, a3], "a2 and a3", (2,))
+    a2, a3 = strokes.as_lengths([a2, a3], "a2 and a3", (2,))
     transforms = scara_frames(q, a2, a3)
     unit = a2 + a3
     base, elbow, hand = transforms[1, :3, 3], transforms[2, :3, 3], transforms[4, :3, 3]
     wrist = hand * (1, 1, 0)
     floor = -0.55 * unit
-    own, ax = ax is None, ax or _new_axes_3d(elev=24, azim=-66)
+    own, ax = ax is None, ax or strokes.new_axes_3d(elev=24, azim=-66)
     corners = unit * np.array([[-0.3, -0.3], [1.0, -0.3], [1.0, 0.9], [-0.3, 0.9]])
-    ax.plot(*np.vstack([corners, corners[:1]]).T, floor, color=FAINT, lw=0.8, zorder=0)
+    ax.plot(*np.vstack([corners, corners[:1]]).T, floor, color=strokes.FAINT, lw=0.8, zorder=0)
     thick = 0.07 * unit
-    _solid(ax, _disc(base[:2], 0.14 * unit), floor, floor + 0.04 * unit, 0.75, 0.5)
-    _solid(ax, _disc(base[:2], 0.085 * unit), floor + 0.04 * unit, -thick, 0.85, 0.6)
+    strokes.solid(ax, strokes.disc(base[:2], 0.14 * unit), floor, floor + 0.04 * unit, 0.75, 0.5)
+    strokes.solid(ax, strokes.disc(base[:2], 0.085 * unit), floor + 0.04 * unit, -thick, 0.85, 0.6)
     quill_top = 0.42 * unit
     if hand[2] < 0:
-        _solid(ax, _disc(wrist[:2], 0.022 * unit), hand[2], 0, 0.7, 0.9)
-    _solid(ax, _stadium(base[:2], elbow[:2], 0.085 * unit), -thick, 0, 0.92, 1.0)
-    _solid(ax, _stadium(elbow[:2], wrist[:2], 0.07 * unit), 0, thick, 0.82, 1.2)
+        strokes.solid(ax, strokes.disc(wrist[:2], 0.022 * unit), hand[2], 0, 0.7, 0.9)
+    strokes.solid(ax, strokes.stadium(base[:2], elbow[:2], 0.085 * unit), -thick, 0, 0.92, 1.0)
+    strokes.solid(ax, strokes.stadium(elbow[:2], wrist[:2], 0.07 * unit), 0, thick, 0.82, 1.2)
     if quill_top + hand[2] > thick:
-        _solid(ax, _disc(wrist[:2], 0.022 * unit), thick, quill_top + hand[2], 0.7, 1.3)
+        strokes.solid(ax, strokes.disc(wrist[:2], 0.022 * unit), thick, quill_top + hand[2], 0.7, 1.3)
     for foot, top, name in ((base, 0.36, "Z_0, Z_1"), (elbow, 0.36, "Z_2"), (wrist, 0.46, "Z_3, Z_4")):
         low = floor if foot is base else min(hand[2], 0) - 0.12 * unit
         ax.plot(
             *zip(foot * (1, 1, 0) + (0, 0, low), foot * (1, 1, 0) + (0, 0, top * unit)),
-            color=SOFT,
+            color=strokes.SOFT,
             lw=0.9,
-            ls=CENTRE_LINE,
+            ls=strokes.CENTRE_LINE,
             zorder=2,
         )
-        _text_3d(ax, foot * (1, 1, 0) + (0, 0, (top + 0.05) * unit), f"${name}$", color=AXIS_COLOURS["z"])
+        strokes.write_3d(
+            ax, foot * (1, 1, 0) + (0, 0, (top + 0.05) * unit), f"${name}$", color=strokes.AXIS_COLOURS["z"]
+        )
     points = [corner + (floor,) for corner in map(tuple, corners)] + [wrist + (0, 0, 0.55 * unit)]
     if frames:
         size = 0.24 * unit
         _draw_frames(ax, transforms, "01234", size, letters="x")
         for transform in transforms[[0, 2, 4]]:
-            _arrow_3d(ax, transform[:3, 3], transform[:3, 3] + (0, 0, size), AXIS_COLOURS["z"], AXIS_DASHES["z"])
+            strokes.arrow_3d(
+                ax,
+                transform[:3, 3],
+                transform[:3, 3] + (0, 0, size),
+                strokes.AXIS_COLOURS["z"],
+                strokes.AXIS_DASHES["z"],
+            )
     if dimensions:
         level = 0.17 * unit
-        _dimension_3d(ax, base, elbow, (0, 0, level), "a_2")
-        _dimension_3d(ax, elbow, wrist, (0, 0, level), "a_3")
+        strokes.dimension_3d(ax, base, elbow, (0, 0, level), "a_2")
+        strokes.dimension_3d(ax, elbow, wrist, (0, 0, level), "a_3")
         if abs(hand[2]) > 0.03 * unit:
-            aside = 0.44 * unit * np.array([*_unit(np.radians(ax.azim + 100)), 0])
+            aside = 0.44 * unit * np.array([*strokes.unit_vector(np.radians(ax.azim + 100)), 0])
             for point in (wrist, hand):
-                ax.plot(*zip(point, point + 1.1 * aside), color=SOFT, lw=0.7, zorder=4)
-            _arrow_3d(ax, wrist + aside, hand + aside, width=1.2)
-            _text_3d(ax, (wrist + hand) / 2 + 1.14 * aside, "$d_2$")
-    _fit(ax, points, own)
+                ax.plot(*zip(point, point + 1.1 * aside), color=strokes.SOFT, lw=0.7, zorder=4)
+            strokes.arrow_3d(ax, wrist + aside, hand + aside, width=1.2)
+            strokes.write_3d(ax, (wrist + hand) / 2 + 1.14 * aside, "$d_2$")
+    strokes.fit_3d(ax, points, own)
     return ax
 
 
-def _dimension_3d(ax, start, end, shift, label):
-    a, b = start + np.array(shift), end + np.array(shift)
-    for foot, point in ((start, a), (end, b)):
-        ax.plot(*zip(foot, point + 0.1 * np.array(shift)), color=SOFT, lw=0.7, zorder=4)
-    _arrow_3d(ax, a, b, width=0.9, style="<|-|>", scale=8)
-    _text_3d(ax, (a + b) / 2, f"${label}$")
-
-
-@styled
+@strokes.styled
 def draw_dh_parameters(a=1.0, alpha=np.radians(40), d=1.3, theta=np.radians(50), ax=None, *, frame=True):
     """The four parameters of the modified DH convention between frames i-1 and i, in space.
 
@@ -1030,7 +736,7 @@ def draw_dh_parameters(a=1.0, alpha=np.radians(40), d=1.3, theta=np.radians(50),
     -------
     matplotlib Axes (3D)
     """
-    a, alpha, d, theta = as_numbers([a, alpha, d, theta], "a, alpha, d, theta", (4,))
+    a, alpha, d, theta = strokes.as_numbers([a, alpha, d, theta], "a, alpha, d, theta", (4,))
     z0, x0 = np.array([0, 0, 1.0]), np.array([1.0, 0, 0])
     z1 = np.array([0, -np.sin(alpha), np.cos(alpha)])
     side = np.array([0, np.cos(alpha), np.sin(alpha)])
@@ -1038,30 +744,31 @@ def draw_dh_parameters(a=1.0, alpha=np.radians(40), d=1.3, theta=np.radians(50),
     foot = a * x0
     origin = foot + d * z1
     size = 0.55
-    own, ax = ax is None, ax or _new_axes_3d(elev=20, azim=-58)
+    own, ax = ax is None, ax or strokes.new_axes_3d(elev=20, azim=-58)
     for base, axis, low, high in (((0, 0, 0), z0, -0.35, 1.25), (foot, z1, -0.4, d + 0.9)):
-        ax.plot(*zip(base + low * axis, base + high * axis), color=SOFT, lw=1, ls=CENTRE_LINE, zorder=1)
-    ax.plot(*zip(-0.2 * x0, foot + 0.75 * x0), color=SOFT, lw=1, ls=CENTRE_LINE, zorder=1)
-    ax.plot(*zip((0, 0, 0), foot), color=INK, lw=3, zorder=3)
-    ax.plot(*zip(foot, origin), color=INK, lw=3, zorder=3)
+        ax.plot(*zip(base + low * axis, base + high * axis), color=strokes.SOFT, lw=1, ls=strokes.CENTRE_LINE, zorder=1)
+    ax.plot(*zip(-0.2 * x0, foot + 0.75 * x0), color=strokes.SOFT, lw=1, ls=strokes.CENTRE_LINE, zorder=1)
+    ax.plot(*zip((0, 0, 0), foot), color=strokes.INK, lw=3, zorder=3)
+    ax.plot(*zip(foot, origin), color=strokes.INK, lw=3, zorder=3)
     for base, axis, letter, name in (
-        ((0, 0, 0), z0, "z", "Z_{i-1}"), (foot * 0, x0, "x", "X_{i-1}"), (origin, z1, "z", "Z_i"), (origin, x1, "x", "X_i"),
+        ((0, 0, 0), z0, "z", "Z_{i-1}"), (foot * 0, x0, "x", "X_{i-1}"),
+        (origin, z1, "z", "Z_i"), (origin, x1, "x", "X_i"),
     ):  # fmt: skip
         if name in ("Z_i", "X_i") and not frame:
             continue
         end = np.asarray(base) + size * axis
-        _arrow_3d(ax, base, end, AXIS_COLOURS[letter], AXIS_DASHES[letter], width=2.1)
+        strokes.arrow_3d(ax, base, end, strokes.AXIS_COLOURS[letter], strokes.AXIS_DASHES[letter], width=2.1)
         aside = 0.12 * z0 if name == "X_{i-1}" else 0.25 * size * axis
-        _text_3d(ax, end + aside, f"${name}$", color=AXIS_COLOURS[letter])
-    ax.plot(*zip(foot, foot + 0.62 * z0), color=SOFT, lw=0.9, ls=(0, (3, 2)), zorder=2)
-    ax.plot(*zip(origin, origin + 0.5 * x0), color=SOFT, lw=0.9, ls=(0, (3, 2)), zorder=2)
-    _arc_3d(ax, foot, z0, -np.array([0, 1.0, 0]), 0.5, alpha, r"\alpha_{i-1}", 1.32)
-    _arc_3d(ax, origin, x0, side, 0.36, theta, r"\theta_i")
-    _text_3d(ax, foot * 0.72 + (0, 0, -0.13), "$a_{i-1}$")
-    _text_3d(ax, foot + 0.62 * d * z1 - (0.12, 0, 0), "$d_i$")
+        strokes.write_3d(ax, end + aside, f"${name}$", color=strokes.AXIS_COLOURS[letter])
+    ax.plot(*zip(foot, foot + 0.62 * z0), color=strokes.SOFT, lw=0.9, ls=(0, (3, 2)), zorder=2)
+    ax.plot(*zip(origin, origin + 0.5 * x0), color=strokes.SOFT, lw=0.9, ls=(0, (3, 2)), zorder=2)
+    strokes.angle_arc_3d(ax, foot, z0, -np.array([0, 1.0, 0]), 0.5, alpha, r"\alpha_{i-1}", 1.32)
+    strokes.angle_arc_3d(ax, origin, x0, side, 0.36, theta, r"\theta_i")
+    strokes.write_3d(ax, foot * 0.72 + (0, 0, -0.13), "$a_{i-1}$")
+    strokes.write_3d(ax, foot + 0.62 * d * z1 - (0.12, 0, 0), "$d_i$")
     for at, name, away in (((0, 0, 0), "O_{i-1}", (-0.14, 0, -0.09)), (origin, "O_i", (-0.13, 0, 0.02))):
-        ax.plot(*[[c] for c in at], "o", ms=5, color=INK, zorder=6)
-        _text_3d(ax, np.asarray(at) + away, f"${name}$")
+        ax.plot(*[[c] for c in at], "o", ms=5, color=strokes.INK, zorder=6)
+        strokes.write_3d(ax, np.asarray(at) + away, f"${name}$")
     ends = [
         -0.2 * x0,
         foot + 0.75 * x0,
@@ -1071,76 +778,65 @@ def draw_dh_parameters(a=1.0, alpha=np.radians(40), d=1.3, theta=np.radians(50),
         foot + (d + 0.9) * z1,
         origin + 1.3 * size * x1,
     ]
-    _fit(ax, ends, own)
+    strokes.fit_3d(ax, ends, own)
     return ax
-
-
-def _arc_3d(ax, centre, start, side, radius, sweep, label, away=1.3):
-    turn = np.linspace(0, sweep, 30)
-    arc = centre + radius * (np.outer(np.cos(turn), start) + np.outer(np.sin(turn), side))
-    ax.plot(*arc[:-2].T, color=INK, lw=1.1, zorder=4)
-    _arrow_3d(ax, arc[-4], arc[-1], width=1.1, scale=8, zorder=4)
-    middle = np.cos(sweep / 2) * start + np.sin(sweep / 2) * side
-    _text_3d(ax, centre + away * radius * middle, f"${label}$")
 
 
 # ---------------------------------------------------------------- marks on a drawing
 
 
-@styled
+@strokes.styled
 def mark_target(ax, at, label=""):
     """A cross in a circle at the point `at`, shape (2,), in metres, with a label beside it."""
-    at = as_numbers(at, "point", (2,))
-    _target(ax, at)
+    at = strokes.as_numbers(at, "point", (2,))
+    strokes.target_mark(ax, at)
     if label:
-        ax.annotate(label, at, xytext=(14, 10), textcoords="offset points", path_effects=_halo(), zorder=9)
-    _show_all(ax, at, 0.08 * max(np.ptp(ax.get_xlim()), np.ptp(ax.get_ylim())))
+        ax.annotate(label, at, xytext=(14, 10), textcoords="offset points", path_effects=strokes.halo(), zorder=9)
+    strokes.keep_in_view(ax, at, 0.08 * max(np.ptp(ax.get_xlim()), np.ptp(ax.get_ylim())))
     return ax
 
 
-def _show_all(ax, at, room):
-    """Widen the view, if need be, to hold the square of half side `room` around `at`."""
-    for limits, setter, c in ((ax.get_xlim(), ax.set_xlim, at[0]), (ax.get_ylim(), ax.set_ylim, at[1])):
-        setter(min(limits[0], c - room), max(limits[1], c + room))
-
-
-@styled
+@strokes.styled
 def mark_frame_2d(ax, frame, name, size):
     """The X and Y axes of a frame, shape (4, 4), seen from above; a tilted axis looks shorter."""
-    frame = as_numbers(frame, "frame", (4, 4))
+    frame = strokes.as_numbers(frame, "frame", (4, 4))
     for letter, column in (("x", 0), ("y", 1)):
         direction, length = frame[:2, column], np.hypot(*frame[:2, column])
         if length > 1e-9:
-            _axis_arrow(
+            strokes.axis_arrow(
                 ax, frame[:2, 3], np.arctan2(*direction[::-1]), size * length, letter, f"{letter.upper()}_{name}"
             )
-    _show_all(ax, frame[:2, 3], 1.4 * size)
+    strokes.keep_in_view(ax, frame[:2, 3], 1.4 * size)
     return ax
 
 
-@styled
+@strokes.styled
 def mark_frame(ax, frame, name, size):
     """A frame, shape (4, 4), in a 3D drawing, with axes of length `size` in metres."""
-    frame = as_numbers(frame, "frame", (4, 4))
-    ax.plot(*frame[:3, 3:], "o", ms=5, color=INK, zorder=7)
+    frame = strokes.as_numbers(frame, "frame", (4, 4))
+    ax.plot(*frame[:3, 3:], "o", ms=5, color=strokes.INK, zorder=7)
     _draw_frames(ax, [frame], [name], size)
     return ax
 
 
-@styled
+@strokes.styled
 def mark_path(ax, frames, size, stations=6):
     """The path of a moving frame, shape (n, 4, 4), with its X and Y axes at some stations."""
-    frames = as_numbers(frames, "frames", (None, 4, 4))
-    ax.plot(*frames[:, :3, 3].T, color=INK, lw=1.6, zorder=5)
+    frames = strokes.as_numbers(frames, "frames", (None, 4, 4))
+    ax.plot(*frames[:, :3, 3].T, color=strokes.INK, lw=1.6, zorder=5)
     for frame in frames[np.linspace(0, len(frames) - 1, stations).astype(int)]:
         for letter, column in (("x", 0), ("y", 1)):
-            _arrow_3d(
-                ax, frame[:3, 3], frame[:3, 3] + size * frame[:3, column], AXIS_COLOURS[letter], AXIS_DASHES[letter]
+            strokes.arrow_3d(
+                ax,
+                frame[:3, 3],
+                frame[:3, 3] + size * frame[:3, column],
+                strokes.AXIS_COLOURS[letter],
+                strokes.AXIS_DASHES[letter],
             )
     return ax
 
 
-@styled
+@strokes.styled
 def mark_hands(ax, lengths, solutions, headings, target, heading, notes):
     """Directions of the hand over `draw_postures`: one arrow per posture, the wanted direction dashed.
 
@@ -1157,17 +853,24 @@ def mark_hands(ax, lengths, solutions, headings, target, heading, notes):
         Added to the legend entries.
     """
     total = sum(lengths)
-    goal = as_numbers(target, "target", (2,))
+    goal = strokes.as_numbers(target, "target", (2,))
     for row, direction in zip(solutions, headings):
         hand = planar_points(lengths, row)[2]
-        _arrow(ax, hand, hand + 0.3 * total * _unit(direction), AXIS_COLOURS["x"], width=2.2, zorder=8)
-    end = goal + 0.42 * total * _unit(heading)
-    ax.plot(*zip(goal, end), color=INK, lw=1.2, ls=(0, (2, 2)), zorder=7)
-    _text(ax, end + 0.05 * total * _unit(heading), r"wanted $\theta$", fontsize=10)
+        strokes.arrow(
+            ax,
+            hand,
+            hand + 0.3 * total * strokes.unit_vector(direction),
+            strokes.AXIS_COLOURS["x"],
+            width=2.2,
+            zorder=8,
+        )
+    end = goal + 0.42 * total * strokes.unit_vector(heading)
+    ax.plot(*zip(goal, end), color=strokes.INK, lw=1.2, ls=(0, (2, 2)), zorder=7)
+    strokes.write(ax, end + 0.05 * total * strokes.unit_vector(heading), r"wanted $\theta$", fontsize=10)
     legend = ax.get_legend()
     if legend:
         labels = [f"{text.get_text()},  {note}" for text, note in zip(legend.get_texts(), notes)]
         _legend_below(ax, legend.legend_handles, labels, columns=1)
     ax.update_datalim([end])
-    _leave_room(ax, 0.16 * total)
+    strokes.leave_room(ax, 0.16 * total)
     return ax

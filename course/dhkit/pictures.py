@@ -16,7 +16,8 @@ from matplotlib.mathtext import MathTextParser
 from matplotlib.patches import Circle, Rectangle
 
 from . import drawing
-from .drawing import INK, SOFT, as_numbers, planar_points, styled
+from .drawing import planar_points
+from .strokes import AXIS_COLOURS, INK, SOFT, as_numbers, in_degrees, styled
 
 COLUMNS = ("i", r"\sigma_i", r"a_{i-1}", r"\alpha_{i-1}", "d_i", r"\theta_i")
 
@@ -313,7 +314,7 @@ def show_postures(solutions, lengths, target, heading=None):
     rows = _numbers(solutions, "solutions", (None, width), {}) if _entries(solutions) else np.empty((0, width))
     ax = drawing.draw_postures(lengths, rows[:, :2], target)
     if heading is not None:
-        notes = [f"$d_2$ = {row[2]:.3f} m,  $t_4$ = {drawing.in_degrees(row[3])}" for row in rows]
+        notes = [f"$d_2$ = {row[2]:.3f} m,  $t_4$ = {in_degrees(row[3])}" for row in rows]
         hands = [row[0] + row[1] + row[3] for row in rows]
         drawing.mark_hands(ax, lengths, rows[:, :2], hands, target, heading, notes)
     if not len(rows):
@@ -437,7 +438,7 @@ def show_inverse(inverse, lengths):
     ax.set_aspect("equal")
     marks = {
         "0": (".", 4, SOFT), "1": ("D", 6, "white"), "2": ("o", 6, "#a9a9a9"), "more": ("s", 7, "#a9a9a9"),
-        "misses": ("x", 7, drawing.AXIS_COLOURS["x"]),
+        "misses": ("x", 7, AXIS_COLOURS["x"]),
     }  # fmt: skip
     for kind, (marker, size, fill) in marks.items():
         chosen = points[[found == kind for found in kinds]]

@@ -7,7 +7,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dhkit import drawing
+from dhkit import drawing, strokes
 from matplotlib.patches import Circle
 from mpl_toolkits.mplot3d import proj3d
 
@@ -89,7 +89,7 @@ def test_drawing_leaves_the_readers_settings_alone():
 
 
 def test_drawing_keeps_the_interactive_mode_that_a_backend_sets_meanwhile():
-    @drawing.styled
+    @strokes.styled
     def load_backend():
         plt.ion()
 
