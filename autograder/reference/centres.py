@@ -19,8 +19,7 @@ def rotation_about(turn: sp.Matrix, centre) -> sp.Matrix:
     """
     size = turn.rows
     centre = sp.Matrix(centre)
-    shift = (centre - turn * centre).applyfunc(lambda e: sp.factor(e, deep=False))
-    return turn.row_join(shift).col_join(sp.Matrix([[0] * size + [1]]))
+    return turn.row_join(centre - turn * centre).col_join(sp.Matrix([[0] * size + [1]]))
 
 
 def scara_centres(joints, lengths) -> list[sp.Matrix]:

@@ -26,7 +26,10 @@ SIDEWAYS = 128  # the target touches the cylinder that the lateral offset leaves
 FREE = FREE_FIRST | FREE_PLANE | FREE_LINE | FREE_CHAIN
 LIMIT = STRETCHED | FOLDED | SIDEWAYS
 
-TOUCHING = 1e-12  # fraction of the arm's size under which two lengths count as equal
+# Fractions of the arm's size. On a limit, an angle errs by the root of a length's error; at a
+# point where an angle is free, by its quotient. Both choices keep that error below 1e-6 rad.
+TOUCHING = 1e-12  # two lengths count as equal
+COINCIDENT = 1e-10  # a target counts as lying on the axis that it makes free
 
 
 def wrap(angle) -> np.ndarray:
@@ -75,8 +78,9 @@ def two_link(p, l1: float, l2: float, anchor, tol: float) -> TwoLink:
     r = np.abs(p)
     total, gap = l1 + l2, abs(l1 - l2)
     beyond, short = r - total, gap - r
+    free = (r <= COINCIDENT * total) & (gap <= TOUCHING * total)
     stretched = beyond >= -TOUCHING * total
-    folded = short >= -TOUCHING * total
+    folded = free | (short >= -TOUCHING * total)
     outer = np.where(stretched, 0.0, -beyond * (total + r))
     inner = np.where(folded, 0.0, -short * (gap + r))
     root_outer, root_inner = np.sqrt(outer), np.sqrt(inner)
@@ -93,7 +97,6 @@ def two_link(p, l1: float, l2: float, anchor, tol: float) -> TwoLink:
 
     first_turn = p[..., None, :] * np.conj(l1 + l2 * bend_turn)
     size = np.abs(first_turn)
-    free = folded & (gap <= TOUCHING * total)
     if free.any():
         anchored = np.broadcast_to(unit(anchor), r.shape)[..., None, :]
         first_turn = np.where(free[..., None, :], anchored, first_turn)
@@ -135,13 +138,13 @@ def shoulder(xy, offset: float, size: float, anchor, tol: float) -> Shoulder:
     """
     r = np.abs(xy)
     inside = abs(offset) - r
-    at_limit = inside >= -TOUCHING * size
+    free = (r <= COINCIDENT * size) & (abs(offset) <= TOUCHING * size)
+    at_limit = free | (inside >= -TOUCHING * size)
     radius = np.empty((2, r.size))
     np.sqrt(np.where(at_limit, 0.0, -inside * (abs(offset) + r)), out=radius[0])
     np.negative(radius[0], out=radius[1])
     turn = xy * (radius - 1j * offset)
     length = np.abs(turn)
-    free = at_limit & (abs(offset) <= TOUCHING * size)
     if free.any():
         turn = np.where(free, unit(anchor), turn)
         length = np.where(free, 1.0, length)

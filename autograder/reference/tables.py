@@ -104,7 +104,7 @@ class DHTable:
     base: sp.ImmutableMatrix | None = None
     tool: sp.ImmutableMatrix | None = None
     limits: tuple[tuple[float, float], ...] | None = None
-    values: Mapping[str, float] = field(default_factory=dict)
+    values: Mapping[str, float] = field(default_factory=dict, hash=False)
 
     def __post_init__(self):
         rows = tuple(_row(row, i) for i, row in enumerate(self.rows, start=1))
