@@ -14,6 +14,7 @@ Exit status: 0 when all targets are met, 1 otherwise.
 """
 
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -134,13 +135,19 @@ def workspace_points():
 
 
 def imports():
-    def run(modules):
-        return lambda: subprocess.run([sys.executable, "-c", f"import {modules}"], check=True,
-                                      cwd=HERE.parents[1])
+    """Both imports in one fresh process, ours last: what it adds is measured, not a difference.
 
-    ours, peer = best(run("autograder.reference"), run("numpy, sympy"), turns=7)
-    return [Row("import autograder.reference (peer: numpy and sympy)", seconds(ours), seconds(peer),
-                f"{ours - peer:+.3f} s", "+0.1 s", ours - peer <= 0.1)]
+    The first run leaves our bytecode in the cache, where that of numpy and sympy already is.
+    """
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+    script = ("import json; from time import perf_counter as now; a = now(); import numpy, sympy; "
+              "b = now(); import autograder.reference; c = now(); print(json.dumps([b - a, c - b]))")
+    runs = [json.loads(subprocess.run([sys.executable, "-c", script], check=True, text=True,
+                                      capture_output=True, env=environment).stdout)
+            for _ in range(7)]
+    peer, added = (min(times) for times in zip(*runs))
+    return [Row("import autograder.reference (peer: numpy and sympy)", seconds(peer + added),
+                seconds(peer), f"+{added:.3f} s", "+0.1 s", added <= 0.1)]
 
 
 def fresh(action):
