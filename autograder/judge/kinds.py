@@ -16,6 +16,9 @@ from dhkit.public import DH_COLUMNS, PublicQuestion
 from .decode import Blank, Call, Constant, Expression, Failure, Foreign, Function, Malformed, Number, Record, Symbol, Text
 from .evaluate import evaluate, evaluate_exactly, symbols
 
+# Sets of solutions are compared pair by pair; a general six-axis arm has at most 16.
+MAX_SOLUTIONS = 100
+
 
 @dataclass(frozen=True)
 class Comparison:
@@ -141,6 +144,8 @@ def _read_solutions(question: PublicQuestion, value: object) -> np.ndarray:
     single = shape == (count,)
     if shape != (0,) and not single and (shape is None or len(shape) != 2 or shape[1] != count):
         raise _refuse(question, describe(value))
+    if not single and len(value) > MAX_SOLUTIONS:
+        raise _refuse(question, f"{len(value)} solutions, more than any robot has")
     numbers = _entries(question, _flatten(value))
     if any(isinstance(number, Blank) for number in numbers):
         raise _refuse(question, "an entry that is not filled in")
@@ -226,30 +231,31 @@ def _compare_choice(question: PublicQuestion, student: str, other: str, setting:
 def _compare_solutions(question: PublicQuestion, student: np.ndarray, other: np.ndarray, setting: Setting) -> Comparison:
     """Two sets of joint solutions without order; angles modulo 2 pi, repeated solutions merged."""
     mine, theirs = (_distinct(solutions, setting) for solutions in (student, other))
-    found = [any(_close(a, b, setting) for b in mine) for a in theirs]
-    extra = sum(not any(_close(a, b, setting) for a in theirs) for b in mine)
+    same = _close(theirs, mine, setting)
+    missing, extra = int((~same.any(axis=1)).sum()), int((~same.any(axis=0)).sum())
     remarks = []
-    if missing := found.count(False):
+    if missing:
         remarks.append(f"{missing} of {len(theirs)} solutions missing")
     if extra:
         remarks.append(f"{extra} of the {len(mine)} given do not reach the target")
-    share = sum(found) / max(len(theirs), len(mine)) if len(theirs) or len(mine) else 1.0
-    return Comparison(not remarks, share, tuple(remarks))
+    most = max(len(theirs), len(mine))
+    return Comparison(not remarks, (len(theirs) - missing) / most if most else 1.0, tuple(remarks))
 
 
-def _close(a: np.ndarray, b: np.ndarray, setting: Setting) -> bool:
-    difference = np.abs(a - b)
+def _close(a: np.ndarray, b: np.ndarray, setting: Setting) -> np.ndarray:
+    """Which of the (m, n) solutions `a` are the same as which of the (k, n) solutions `b`: an (m, k) array."""
+    difference = np.abs(a[:, None] - b[None])
     angles = list(setting.angles)
-    difference[angles] = np.abs((difference[angles] + np.pi) % (2 * np.pi) - np.pi)
-    return bool((difference <= setting.tolerance).all())
+    difference[..., angles] = np.abs((difference[..., angles] + np.pi) % (2 * np.pi) - np.pi)
+    return (difference <= setting.tolerance).all(axis=-1)
 
 
-def _distinct(solutions: np.ndarray, setting: Setting) -> list[np.ndarray]:
-    kept: list[np.ndarray] = []
-    for solution in solutions:
-        if not any(_close(solution, other, setting) for other in kept):
-            kept.append(solution)
-    return kept
+def _distinct(solutions: np.ndarray, setting: Setting) -> np.ndarray:
+    kept: list[int] = []
+    for i, same in enumerate(_close(solutions, solutions, setting)):
+        if not same[kept].any():
+            kept.append(i)
+    return solutions[kept]
 
 
 KINDS = {

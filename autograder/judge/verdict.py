@@ -8,8 +8,8 @@ from functools import lru_cache
 
 from dhkit import wire
 
-from .decode import Blank, Failure, Malformed, Value, decode_answer, decode_probes
-from .kinds import KINDS, Comparison, Kind, Setting
+from .decode import Blank, Failure, Function, Malformed, Value, decode_answer, decode_probes
+from .kinds import KINDS, Comparison, Kind, Setting, describe
 from .question import Question, Variant
 
 
@@ -109,6 +109,8 @@ def _judge_value(question: Question, value: Value, variant: Variant) -> Verdict:
 def _judge_function(question: Question, evidence: Evidence, value: Value, variant: Variant) -> Verdict:
     if _is_blank(value):
         return _not_attempted(evidence)
+    if not isinstance(value, Function):
+        raise Malformed(f"expected {question.public.expected}, found {describe(value)}")
     if evidence.probes is None or evidence.probes[1] is None:
         return _nothing_came(evidence)
     arguments, raw = evidence.probes

@@ -134,8 +134,11 @@ def inverse(*, postures=slice(None), direction=np.arctan2, clipped=True, beyond=
         lost = not clipped and abs(elbow_cosine(px, py, l1, l2)) > 1
         if lost or where(px, py, l1, l2) == "targets out of reach":
             return beyond
+        heading = direction(py, px)
+        if heading is None:
+            return None
         found = np.array(solutions(px, py, l1, l2))[postures].reshape(-1, 2)
-        turn = direction(py, px) - np.arctan2(py, px)
+        turn = heading - np.arctan2(py, px)
         return [[q1 + turn, q2] for q1, q2 in found]
 
     return answer
@@ -143,6 +146,11 @@ def inverse(*, postures=slice(None), direction=np.arctan2, clipped=True, beyond=
 
 def atan_direction(py, px):
     return np.arctan(py / px) if px else np.sign(py) * np.pi / 2
+
+
+def plain_atan_direction(py, px):
+    """None, a failure, straight above and below the base: there y / x divides by zero."""
+    return np.arctan(py / px) if px else None
 
 
 QUESTIONS = (
@@ -353,6 +361,8 @@ QUESTIONS = (
                 ATAN,
                 lambda variant: inverse(direction=atan_direction),
                 lambda variant: inverse(direction=atan_direction, clipped=False, beyond=None),
+                lambda variant: inverse(direction=plain_atan_direction),
+                lambda variant: inverse(direction=plain_atan_direction, clipped=False, beyond=None),
             ),
             mistake(
                 "unclipped_acos",
@@ -376,6 +386,12 @@ QUESTIONS = (
                 lambda variant: inverse(beyond=None),
             ),
             mistake("degrees", 0.4, DEGREES, lambda variant: lambda *target: np.degrees(solutions(*target))),
+            mistake(
+                "no_solution_at_all",
+                0.0,
+                "**Your function finds no solution for any target**, not even for those within reach.",
+                lambda variant: lambda *target: [],
+            ),
         ),
         angles=(0, 1),
         tolerance=1e-4,

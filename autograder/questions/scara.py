@@ -98,6 +98,12 @@ def with_first_t1(solutions):
     return [[solutions[0][0], *solution[1:]] for solution in solutions]
 
 
+def with_first_t1_and_heading(solutions):
+    """Both t1 alike, and each t4 made up from them so that the heading is right."""
+    q1 = solutions[0][0]
+    return [[q1, q2, depth, q4 + first - q1] for first, q2, depth, q4 in solutions]
+
+
 def with_turned_d2(solutions):
     return [[*solution[:2], -solution[2], solution[3]] for solution in solutions]
 
@@ -249,6 +255,8 @@ QUESTIONS = (
                 "direct model and see where the hand goes.",
                 lambda variant: with_first_t1(postures()),
                 lambda variant: with_first_t1(postures()[::-1]),
+                lambda variant: with_first_t1_and_heading(postures()),
+                lambda variant: with_first_t1_and_heading(postures()[::-1]),
             ),
             mistake(
                 "posture_with_other_theta4",

@@ -117,6 +117,11 @@ def test_joint_solutions(student, equal, remark):
         assert remark in "; ".join(result.remarks)
 
 
+def test_a_heap_of_guesses_is_no_list_of_solutions():
+    with pytest.raises(Malformed, match="4000 solutions"):
+        read(SOLUTIONS, [[k, k] for k in range(4000)])
+
+
 def test_no_solution_is_an_answer():
     assert compare(SOLUTIONS, [], []).equal
     assert not compare(SOLUTIONS, [[0, 0]], []).equal

@@ -167,7 +167,13 @@ def test_other_choices_are_refused(question):
 def test_constant_functions_are_refused(question):
     first = question.reference(VARIANT)(*question.probes(VARIANT, 7)[0])
     for wrong in (lambda *args: first, lambda *args: [], lambda *args: 1 / 0, lambda *args: "right"):
-        assert verdict(question, wrong).share < 0.5
+        assert verdict(question, wrong).share == 0
+
+
+@pytest.mark.parametrize("question", FUNCTIONS, ids=ids(FUNCTIONS))
+def test_something_else_than_a_function_is_said_to_be_so(question):
+    found = judge(question, Evidence(wire.bundle(question.id, answer=[1, 2])), VARIANT)
+    assert found.note == "malformed" and "expected a function" in found.feedback and "shape 2" in found.feedback
 
 
 def test_both_halves_ask_the_same_questions():
