@@ -6,6 +6,7 @@ angles in radians, arrays batch-first: q (..., n), poses (..., 4, 4).
 
 from . import catalogue as robots
 from .catalogue import Robot
+from .centres import epfl_centres, rotation_about, scara_centres
 from .singularities import jacobian, mobility, rank
 from .solutions import STATUS, Batch, Nearest, Solutions
 from .tables import ClassicTable, DHRow, DHTable
@@ -21,9 +22,12 @@ __all__ = [
     "Robot",
     "Solutions",
     "UrdfJoint",
+    "epfl_centres",
     "jacobian",
     "mobility",
     "rank",
     "robots",
+    "rotation_about",
+    "scara_centres",
     "table_from_urdf",
 ]

@@ -2,6 +2,7 @@
 
 Functions build a robot for given lengths (metres); the constants in capitals are the same
 robots with default lengths, made at first use: ``robots.SCARA``, ``robots.scara(a2=0.4)``.
+The parallel robots ``robots.THREE_RPR`` and ``robots.THREE_RRR`` have models of their own kind.
 Joint angles in radians, poses 4x4. Sources are named with each robot.
 """
 
@@ -19,6 +20,7 @@ from .elbow import ElbowArm, WristAlone, WristedArm
 from .elementary import rot_y, rot_z, trans_x, trans_z
 from .horizontal import PlanarArm, Scara
 from .inverse import TOLERANCE, InverseModel
+from .parallel import ThreeRPR, ThreeRRR
 from .pen import PenArm
 from .solutions import Batch, Nearest, Solutions
 from .tables import DHTable
@@ -300,22 +302,24 @@ _DEFAULTS: dict[str, Callable[[], Robot]] = {
     "PEN_REPAIRED": pen_repaired,
 }
 
+_PARALLEL = {"THREE_RPR": ThreeRPR, "THREE_RRR": ThreeRRR}
+
 
 @cache
-def _default(name: str) -> Robot:
-    return _DEFAULTS[name]()
+def _default(name: str) -> Robot | ThreeRPR | ThreeRRR:
+    return (_DEFAULTS | _PARALLEL)[name]()
 
 
-def __getattr__(name: str) -> Robot:
-    if name in _DEFAULTS:
+def __getattr__(name: str) -> Robot | ThreeRPR | ThreeRRR:
+    if name in _DEFAULTS or name in _PARALLEL:
         return _default(name)
-    raise AttributeError(f"no robot {name}: there are {', '.join(_DEFAULTS)}")
+    raise AttributeError(f"no robot {name}: there are {', '.join(_DEFAULTS | _PARALLEL)}")
 
 
 def __dir__() -> list[str]:
-    return [*globals(), *_DEFAULTS]
+    return [*globals(), *_DEFAULTS, *_PARALLEL]
 
 
 def names() -> tuple[str, ...]:
-    """Names of the robots with default lengths."""
+    """Names of the serial robots with default lengths."""
     return tuple(_DEFAULTS)

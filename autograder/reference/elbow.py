@@ -259,14 +259,15 @@ class Wrist:
 
         x, y, z: rows of the hand's rotation seen from the forearm frame, before alpha_3; each
         a triple (s, n, a) of arrays (...). near: (n, N) or None. Returns three arrays
-        (2, ...), branch 0 with q of the middle joint in [0, pi], and the marks (...).
+        (2, ...), branch 0 with the middle joint in [0, pi] (if its offset is a multiple of
+        pi), and the marks (...).
         """
         ca, sa = self.cos_alpha, self.sin_alpha
         m13, m23, m33 = x[2], ca * y[2] + sa * z[2], ca * z[2] - sa * y[2]
         sine = np.sqrt(m13**2 + m23**2)
         aligned = sine <= _ALIGNED
         # The branch with q5 >= 0 comes first; u5 may run the other way or be half a turn off.
-        lead = np.sign(np.sin(self._joint(1, self.signs[0] * np.pi / 2)))
+        lead = -1.0 if np.sin(self._joint(1, self.signs[0] * np.pi / 2)) < -_ALIGNED else 1.0
         size = lead * np.where(aligned, 1.0, sine)
         c4, s4 = m13 / size, m23 / size
         if aligned.any():
@@ -303,11 +304,11 @@ class Wrist:
         sign = int(self.joints.sign[i] * self.joints.sign[j] * self.signs[1])
         return i, j, sign, -sign
 
-    @staticmethod
-    def label(flipped: int, marks: int) -> str:
-        """The wrist branch in words."""
+    def label(self, flipped: int, marks: int) -> str:
+        """The wrist branch in words; straight when axis 6 points along axis 4."""
         if marks & FREE_LINE:
-            return "wrist folded" if marks & FOLDED_LINE else "wrist straight"
+            opposite = bool(marks & FOLDED_LINE) != (self.signs[1] < 0)
+            return "wrist folded" if opposite else "wrist straight"
         return "wrist flipped" if flipped else "wrist unflipped"
 
 

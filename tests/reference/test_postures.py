@@ -172,6 +172,15 @@ def test_folded_wrist_defines_the_difference():
     assert "wrist folded" in answer.labels[row]
 
 
+def test_straight_wrist_is_straight_whatever_the_table_counts():
+    """The EPFL arm's table turns its last frames by half turns; q5 = 0 is still straight."""
+    q = np.radians([20, 30, 50, -25, 0, 65])
+    answer = robots.EPFL_ARM.solve(robots.EPFL_ARM.forward(q))
+    row = answer.free_by_row.index("q4 + q6 = const")
+    assert "wrist straight" in answer.labels[row]
+    assert np.degrees(answer.q[row, 3] + answer.q[row, 5]) == pytest.approx(40)
+
+
 def test_free_direction_speaks_of_joints_as_the_table_counts_them():
     table = robots.RX90.table
     t6 = table.joints[5]
