@@ -1,5 +1,8 @@
 """DHTable: entries, transforms, recursion, conversions, rendering, messages."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -211,3 +214,14 @@ def test_bad_urdf_chains_are_refused_in_words():
         table_from_urdf([UrdfJoint((0, 0, 1), axis=(0, 0, 0))])
     with pytest.raises(ValueError, match="joint 1: unknown kind 'floating'"):
         table_from_urdf([UrdfJoint((0, 0, 1), kind="floating")])
+
+
+def test_importing_the_solver_loads_numpy_and_sympy_only():
+    """Keeps the import light: no symbolic work, no plotting, no other numeric library."""
+    code = (
+        "import sys, numpy, sympy; before = set(sys.modules); import autograder.reference; "
+        "print(*sorted({m.split('.')[0] for m in set(sys.modules) - before}))"
+    )
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    assert "autograder" in loaded
+    assert not {"scipy", "matplotlib", "pandas", "IPython", "pinocchio", "eaik"} & set(loaded)
