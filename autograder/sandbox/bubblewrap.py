@@ -20,6 +20,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import IO
 
+import psutil
+
 from . import seccomp
 from .limits import Limits
 
@@ -30,7 +32,8 @@ STUDENT_UID = 1000
 
 SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
 CONFIGURATION = ("/etc/ld.so.cache", "/etc/fonts", "/etc/localtime", "/etc/alternatives", "/etc/mime.types")
-ENVIRONMENT_PARTS = ("bin", "lib", "lib64", "share", "etc", "ssl", "pyvenv.cfg")
+ENVIRONMENT_PARTS = ("bin", "lib", "lib64", "share", "ssl", "pyvenv.cfg")
+NEVER_SHOWN = ("/usr/local/etc",)  # Jupyter and nbgrader configuration may hold passwords
 
 INSTALL = "install it: apt-get install bubblewrap (Fedora: dnf install bubblewrap)"
 NAMESPACES = (
@@ -122,7 +125,7 @@ def mounts(limits: Limits, hidden: Iterable[str] = ()) -> list[str]:
 
     masks = [
         path
-        for path in dict.fromkeys((*own_private_folders(), *map(os.path.realpath, hidden)))
+        for path in dict.fromkeys((*NEVER_SHOWN, *own_private_folders(), *map(os.path.realpath, hidden)))
         if os.path.isdir(path) and any(inside(path, other) for other in visible)
     ]
     needed = [place for place in places if any(inside(place[1], mask) for mask in masks)]
@@ -162,8 +165,6 @@ def process_quota(limits: Limits, uid: int | None) -> int:
     release = tuple(int(part) for part in os.uname().release.split(".")[:2] if part.isdigit())
     if uid is not None or release >= (5, 14):
         return limits.processes
-    import psutil
-
     mine = os.getuid()
     running = psutil.process_iter(["uids", "num_threads"])
     return limits.processes + sum(
@@ -187,7 +188,8 @@ def resource_limits(limits: Limits, uid: int | None) -> dict[str, tuple[int, int
         "RLIMIT_NPROC": process_quota(limits, uid),
         "RLIMIT_FSIZE": limits.file_size,
         "RLIMIT_NOFILE": limits.open_files,
-        "RLIMIT_CORE": 0,
+        # 1 and not 0: only so does a system that pipes core dumps into a program make none.
+        "RLIMIT_CORE": 1,
     }
     bounds = {name: (value, value) for name, value in same.items()}
     # At the soft limit comes SIGXCPU, by which the cause is known afterwards.
@@ -270,8 +272,9 @@ def available() -> str | None:
     """None when a sandbox starts here, else the reason in words, with what to do about it."""
     if not sys.platform.startswith("linux"):
         return f"bubblewrap exists for Linux only, this is {sys.platform}"
-    probe = "import sys, importlib.util as util; sys.exit(util.find_spec('ipykernel') is None)"
-    with tempfile.TemporaryDirectory(prefix="autograder-") as folder:
+    packages = [folder for folder in map(package_folder, ("ipykernel", "dhkit")) if folder]
+    probe = f"for folder in {packages}: open(folder + '/__init__.py').close()"
+    with tempfile.TemporaryDirectory(prefix="autograder-probe-") as folder:
         try:
             process = start([sys.executable, "-c", probe], limits=Limits(), folder=Path(folder))
             output, _ = process.communicate(timeout=60)
@@ -294,8 +297,8 @@ def explain(output: str) -> str:
         return f"bubblewrap cannot build a sandbox ({output.splitlines()[0]}): {NAMESPACES}"
     if "ermission denied" in output:
         return (
-            f"the Python environment {sys.prefix} cannot be read by other users, as whom sandboxed kernels run"
-            f" when root starts them ({output.splitlines()[-1]}): chmod -R a+rX {sys.prefix}"
+            "a sandboxed kernel, which is not root even when root starts it, cannot read its Python environment or"
+            f" dhkit ({output.splitlines()[-1]}): chmod -R a+rX {sys.prefix} and the folder of dhkit"
         )
     last = output.splitlines()[-1] if output else "no message"
     return f"a trial sandbox failed: {last}"

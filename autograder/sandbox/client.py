@@ -184,10 +184,10 @@ class SandboxClient(NotebookClient):
             if message.kind == "execute_reply":
                 progress.reply = message.content
             return
+        progress.streamed += message.size + MESSAGE_OVERHEAD
         if message.kind == "status":
             progress.idle = progress.idle or message.content.get("execution_state") == "idle"
             return
-        progress.streamed += message.size + MESSAGE_OVERHEAD
         content = output_content(message)
         if content is None or progress.streamed > self.limits.output_bytes - self.used:
             return

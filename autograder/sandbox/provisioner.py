@@ -7,6 +7,7 @@ Chosen by a kernel spec whose metadata says
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import functools
 import glob
 import importlib.util
@@ -17,6 +18,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 from typing import Any
 
@@ -33,13 +35,27 @@ from .watch import MemoryWatch
 from .workdir import read_folder
 
 SOCKET_PATH_BYTES = 90  # the system allows 108, or 104 on macOS, file name included
+PREFIX = "autograder-"
+NO_HISTORY = "--HistoryManager.hist_file=:memory:"
 XCPU_STATUS = 128 + signal.SIGXCPU
 
 
 def private_folder() -> Path:
     """A new folder that only this user can enter, with a path short enough for sockets."""
-    base = tempfile.gettempdir()
-    return Path(tempfile.mkdtemp(prefix="ag-", dir=base if len(base) < SOCKET_PATH_BYTES - 12 else "/tmp"))
+    base = tempfile.gettempdir() if len(tempfile.gettempdir()) < SOCKET_PATH_BYTES - 25 else "/tmp"
+    remove_orphans(Path(base))
+    return Path(tempfile.mkdtemp(prefix=f"{PREFIX}{os.getpid()}-", dir=base))
+
+
+def remove_orphans(base: Path, older_than: float = 3600.0) -> None:
+    """Remove the private folders of graders that were killed and could not do it themselves."""
+    for folder in base.glob(PREFIX + "*-*"):
+        owner = folder.name.removeprefix(PREFIX).split("-")[0]
+        with contextlib.suppress(OSError):
+            status = folder.lstat()
+            old = time.time() - status.st_mtime > older_than
+            if old and status.st_uid == os.geteuid() and owner.isdigit() and not psutil.pid_exists(int(owner)):
+                shutil.rmtree(folder, ignore_errors=True)
 
 
 @functools.cache
@@ -120,7 +136,8 @@ class SandboxProvisioner(LocalProvisioner):
         self.left_out = tuple(left_out)
         connection = self._connection(descriptors)
         source = Path(__file__).with_name("kernel.py").read_text()
-        command = [sys.executable, "-c", source, "--HistoryManager.hist_file=:memory:", *options]
+        # nbclient passes the first option as well.
+        command = [sys.executable, "-c", source, *dict.fromkeys((NO_HISTORY, *options))]
         if self.sandboxed:
             files = {f"work/{name}": content for name, content in contents.items()}
             files |= {**font_list(), ".kernel.json": connection}

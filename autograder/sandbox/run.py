@@ -19,6 +19,7 @@ from .client import CellRun, SandboxClient
 from .limits import Limits
 
 MAX_RESTARTS = 2
+HARMLESS = ("ok", "error", "memory")
 NAMES_SHOWN = 5
 
 RUNNING: set[asyncio.Task[Run]] = set()
@@ -48,6 +49,7 @@ class Session:
     starts: int = 0
     used: int = 0
     left_out: tuple[str, ...] = ()
+    harmful: set[int] = field(default_factory=set)
 
     async def start(self) -> None:
         self.client = SandboxClient(self.nb, self.limits, self.options, self.used)
@@ -62,7 +64,7 @@ class Session:
             self.client.close()
             self.client = None
 
-    async def execute(self, source: str, index: int) -> CellRun:
+    async def execute(self, source: str) -> CellRun:
         """Run code in the present kernel, with its outputs in a cell of its own at the notebook's end."""
         cell = nbformat.v4.new_code_cell(source)
         self.nb.cells.append(cell)
@@ -71,20 +73,25 @@ class Session:
         result = await self.client.run_code(source, cell, len(self.nb.cells) - 1, deadline)
         if result.status == "timeout" and by_notebook:
             result.message = f"stopped: the notebook's {self.limits.notebook_seconds:g} s were used up"
+            self.run.message = self.out_of_time()
         elif result.status == "timeout":
             result.message = f"stopped after {self.limits.cell_seconds:g} s"
         return result
 
-    async def replay(self, index: int) -> None:
-        """Bring a fresh kernel to the state before cell ``index``, without the cells that did harm."""
-        for earlier, result in self.run.cells.items():
-            if earlier >= index or result.status not in ("ok", "error"):
-                continue
-            if self.client.lost or time.monotonic() >= self.deadline:
+    def out_of_time(self) -> str:
+        return f"notebook stopped after {self.limits.notebook_seconds:g} s"
+
+    def did_harm(self, result: CellRun) -> bool:
+        return self.client.lost or result.status not in HARMLESS
+
+    async def replay(self) -> None:
+        """Bring a fresh kernel to the state after the cells run so far, without those that did harm."""
+        for earlier in sorted(self.run.cells.keys() - self.harmful):
+            if self.did_harm(await self.execute(self.nb.cells[earlier].source)):
+                self.harmful.add(earlier)
+            self.client.used = self.used
+            if self.client.lost or self.run.message is not None:
                 return
-            self.client.used = 0
-            await self.execute(self.nb.cells[earlier].source, earlier)
-        self.client.used = self.used
 
 
 async def run_cells(session: Session, followup: Followup | None) -> None:
@@ -96,22 +103,24 @@ async def run_cells(session: Session, followup: Followup | None) -> None:
         if not source.strip():
             run.cells[index] = CellRun("ok")
             continue
-        while session.client is None or session.client.lost:
+        while run.message is None and (session.client is None or session.client.lost):
             session.stop()
             if session.starts > MAX_RESTARTS:
                 run.message = f"the kernel was lost {session.starts} times, the rest of the notebook was not run"
                 break
             await session.start()
-            await session.replay(index)
+            await session.replay()
         if run.message is None and time.monotonic() >= session.deadline:
-            run.message = f"notebook stopped after {session.limits.notebook_seconds:g} s"
+            run.message = session.out_of_time()
         if run.message is not None:
             run.cells[index] = CellRun("not_run", run.message)
             continue
-        result = run.cells[index] = await session.execute(source, index)
+        result = run.cells[index] = await session.execute(source)
+        if session.did_harm(result):
+            session.harmful.add(index)
         code = followup(index, session.nb.cells[index], result.outputs) if followup is not None else None
         if code is not None and not session.client.lost:
-            probed = await session.execute(code, index)
+            probed = await session.execute(code)
             run.followups[index] = probed.outputs
             if probed.status != "ok" and result.status == "ok":
                 result.status = probed.status

@@ -76,6 +76,18 @@ def test_a_dead_kernel_is_replaced_and_the_cells_before_replayed(sandboxed, stat
     assert run.cells[1].message == "ZeroDivisionError: division by zero"
 
 
+def test_a_delayed_death_ends_the_run_in_bounded_time(sandboxed, statuses):
+    fuse = "import os, threading; threading.Timer(0.4, os._exit, (1,)).start()"
+    run = sandboxed("x = 3", fuse, *["import time; time.sleep(5)"] * 5)
+    assert statuses(run) == ["ok", "ok", "died", "died", "died", "not_run", "not_run"]
+
+
+def test_the_output_quota_outlives_a_restart(sandboxed, statuses):
+    limits = sandbox.Limits(output_bytes=200_000)
+    run = sandboxed("print('a' * 90_000)", "import os; os._exit(1)", "print('b' * 90_000)", "print('c' * 90_000)", limits=limits)
+    assert statuses(run) == ["ok", "died", "ok", "output_limit"]
+
+
 def test_system_exit_costs_one_cell(either, statuses):
     assert statuses(either("x = 1", "raise SystemExit(3)", "x")) == ["ok", "error", "ok"]
 
@@ -232,6 +244,21 @@ def test_nothing_is_left_open_or_lying_about(sandboxed, tmp_path, monkeypatch):
     assert len(folders) >= 7
     assert not any(folder.exists() for folder in folders)
     assert len(os.listdir("/proc/self/fd")) <= before
+
+
+def test_folders_of_killed_graders_are_removed(tmp_path):
+    gone = subprocess.Popen(["true"])
+    gone.wait()
+    orphan, fresh, own, other = (
+        tmp_path / f"autograder-{name}" for name in (f"{gone.pid}-a", f"{gone.pid}-b", f"{os.getpid()}-c", "x-d")
+    )
+    for folder in (orphan, fresh, own, other):
+        folder.mkdir()
+        (folder / "kernel.json").touch()
+    for folder in (orphan, own, other):
+        os.utime(folder, (0, 0))
+    provisioner.remove_orphans(tmp_path)
+    assert sorted(tmp_path.iterdir()) == sorted([fresh, own, other])
 
 
 def test_without_a_sandbox_it_refuses(monkeypatch, tmp_path):
