@@ -22,9 +22,11 @@ from .provisioner import SandboxProvisioner
 
 START_SECONDS = 60.0
 INTERRUPT_SECONDS = 3.0  # what a cell gets to end after an interrupt before its kernel is killed
-SETTLE_SECONDS = 2.0  # what the other half of a cell's end may lag behind
+SETTLE_SECONDS = 5.0  # what the other half of a cell's end may lag behind
 POLL_SECONDS = 0.2
 MESSAGE_OVERHEAD = 200  # bytes: an output costs memory beyond its text
+SHARE = 8  # a cell may always use this part of the notebook's quota,
+SHARES_END = 4  # until the notebook has used its quota this many times
 KEPT_BYTES = 16 << 10  # of the outputs of a cell that passed the limit
 QUEUED_MESSAGES = 8
 MESSAGE_CHARACTERS = 300
@@ -51,14 +53,25 @@ class CellRun:
 
 @dataclass
 class Progress:
-    """State of a running cell; ``stopped`` is (status, message) once it was interrupted."""
+    """State of a running cell.
 
+    ``allowed`` is what its outputs may add up to, in bytes; ``refused`` whether
+    a message was left out on the way; ``stopped`` is (status, message) once it
+    was interrupted.
+    """
+
+    allowed: int
+    refused: bool = False
     reply: dict[str, Any] | None = None
     idle: bool = False
     ended_at: float | None = None
     streamed: int = 0
     stopped: tuple[str, str] | None = None
     kill_at: float = float("inf")
+
+    @property
+    def over(self) -> bool:
+        return self.refused or self.streamed > self.allowed
 
 
 class SandboxClient(NotebookClient):
@@ -140,13 +153,12 @@ class SandboxClient(NotebookClient):
         refused_before = self.provisioner.relay.refused
         self.clear_before_next_output = False
         request = self.kc.execute(source, allow_stdin=False, stop_on_error=False)
-        progress = Progress()
-        while not self._finished(progress, refused=self.provisioner.relay.refused > refused_before):
+        progress = Progress(allowed=self._allowance())
+        while not self._finished(progress):
             now = time.monotonic()
             if progress.stopped is None and now >= deadline:
                 progress.stopped = ("timeout", "stopped: it took too long")
-            refused = self.provisioner.relay.refused > refused_before
-            if progress.stopped is None and (refused or progress.streamed > self.limits.output_bytes - self.used):
+            if progress.stopped is None and progress.over:
                 progress.stopped = ("output_limit", self._too_much_output())
             if progress.stopped is not None and progress.kill_at == float("inf"):
                 progress.kill_at = now + INTERRUPT_SECONDS
@@ -161,9 +173,19 @@ class SandboxClient(NotebookClient):
             for channel, message in await self._receive(min(POLL_SECONDS, max(0.0, deadline - now) or POLL_SECONDS)):
                 if message is not None and message.parent == request:
                     self._take(channel, message, progress, cell, index)
-        return self._result(progress, cell, refused=self.provisioner.relay.refused > refused_before)
+            progress.refused = self.provisioner.relay.refused > refused_before
+        return self._result(progress, cell)
 
-    def _finished(self, progress: Progress, *, refused: bool) -> bool:
+    def _allowance(self) -> int:
+        """What the next cell's outputs may add up to.
+
+        A cell is left a share whatever the cells before it used, so that one
+        that prints too much does not silence the others.
+        """
+        quota = self.limits.output_bytes
+        return max(quota - self.used, quota // SHARE if self.used < SHARES_END * quota else 0)
+
+    def _finished(self, progress: Progress) -> bool:
         """Whether the cell ended: both halves of its end came, or the second does not come any more.
 
         A message that was too long is left out, and it may have been one of
@@ -171,7 +193,7 @@ class SandboxClient(NotebookClient):
         """
         if progress.reply is not None and progress.idle:
             return True
-        if progress.reply is None and not (progress.idle and refused):
+        if progress.reply is None and not (progress.idle and progress.refused):
             progress.ended_at = None
             return False
         if progress.ended_at is None:
@@ -189,7 +211,7 @@ class SandboxClient(NotebookClient):
             progress.idle = progress.idle or message.content.get("execution_state") == "idle"
             return
         content = output_content(message)
-        if content is None or progress.streamed > self.limits.output_bytes - self.used:
+        if content is None or progress.over:
             return
         header = {"msg_type": message.kind}
         try:
@@ -215,18 +237,15 @@ class SandboxClient(NotebookClient):
     def _too_much_output(self) -> str:
         return f"stopped: more than {self.limits.output_bytes >> 10} KiB of output"
 
-    def _result(self, progress: Progress, cell: NotebookNode, *, refused: bool) -> CellRun:
+    def _result(self, progress: Progress, cell: NotebookNode) -> CellRun:
         """The cell's run as told by what stopped it, or else by its reply."""
-        over = refused or progress.streamed > self.limits.output_bytes - self.used
-        if over:
+        if progress.over:
             cell.outputs = shortened(cell.outputs, KEPT_BYTES)
-            self.used += min(KEPT_BYTES, self.limits.output_bytes - self.used)
-        else:
-            self.used += progress.streamed
+        self.used += min(progress.streamed, KEPT_BYTES) if progress.over else progress.streamed
         reply = progress.reply or {}
         if progress.stopped is not None:
             return CellRun(*progress.stopped, cell.outputs)
-        if over:
+        if progress.over:
             return CellRun("output_limit", self._too_much_output(), cell.outputs)
         if asks_to_exit(reply):
             self.lost = True

@@ -14,7 +14,7 @@ class Limits:
     that asks.  ``disk`` is the size of each private file system (home with the
     work folder, /tmp, /dev/shm).  ``cpu_seconds`` counts per process.
     ``output_bytes`` is what the outputs of one notebook may add up to while
-    they stream.
+    they stream; each cell is left an eighth of it whatever was used before.
     """
 
     memory: int = 1 << 30

@@ -34,15 +34,15 @@ from .relay import Relay, listening_sockets
 from .watch import MemoryWatch
 from .workdir import read_folder
 
-SOCKET_PATH_BYTES = 90  # the system allows 108, or 104 on macOS, file name included
-PREFIX = "autograder-"
+BASE_BYTES = 78  # a socket's whole path may have 108, or 104 on macOS
+PREFIX = "ag-"
 NO_HISTORY = "--HistoryManager.hist_file=:memory:"
 XCPU_STATUS = 128 + signal.SIGXCPU
 
 
 def private_folder() -> Path:
     """A new folder that only this user can enter, with a path short enough for sockets."""
-    base = tempfile.gettempdir() if len(tempfile.gettempdir()) < SOCKET_PATH_BYTES - 25 else "/tmp"
+    base = tempfile.gettempdir() if len(tempfile.gettempdir()) <= BASE_BYTES else "/tmp"
     remove_orphans(Path(base))
     return Path(tempfile.mkdtemp(prefix=f"{PREFIX}{os.getpid()}-", dir=base))
 

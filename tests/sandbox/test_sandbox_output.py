@@ -115,6 +115,13 @@ def test_the_limit_is_the_notebooks(sandboxed, statuses):
     assert statuses(run) == ["ok", "ok", "output_limit", "output_limit"]
 
 
+def test_a_used_up_quota_does_not_silence_the_cells_after(sandboxed, statuses, printed):
+    run = sandboxed("print('z' * 250_000)", "1 + 1", "print('a' * 20_000)", "print('b' * 40_000)", limits=LIMITS)
+    assert statuses(run) == ["ok", "ok", "ok", "output_limit"]
+    assert run.cells[1].outputs[0].data["text/plain"] == "2"
+    assert len(printed(run, 2)) == 20_000
+
+
 def test_outputs_are_valid_notebook_outputs(sandboxed):
     import nbformat
 

@@ -250,7 +250,7 @@ def test_folders_of_killed_graders_are_removed(tmp_path):
     gone = subprocess.Popen(["true"])
     gone.wait()
     orphan, fresh, own, other = (
-        tmp_path / f"autograder-{name}" for name in (f"{gone.pid}-a", f"{gone.pid}-b", f"{os.getpid()}-c", "x-d")
+        tmp_path / f"{provisioner.PREFIX}{name}" for name in (f"{gone.pid}-a", f"{gone.pid}-b", f"{os.getpid()}-c", "x-d")
     )
     for folder in (orphan, fresh, own, other):
         folder.mkdir()
