@@ -41,11 +41,14 @@ class Setting:
         Indices of the vector entries (or () and (0,) for a single expression) that are angles, compared modulo 2 pi.
     tolerance : float
         Largest difference that still counts as equal, relative to the larger of 1 and the reference's size.
+    turn : float
+        A full turn in the unit of the joint angles: 2 pi, or 360 where both answers are in degrees.
     """
 
     points: Mapping[str, np.ndarray]
     angles: tuple[int, ...] = ()
     tolerance: float = 1e-6
+    turn: float = 2 * np.pi
 
 
 @dataclass(frozen=True)
@@ -246,7 +249,8 @@ def _close(a: np.ndarray, b: np.ndarray, setting: Setting) -> np.ndarray:
     """Which of the (m, n) solutions `a` are the same as which of the (k, n) solutions `b`: an (m, k) array."""
     difference = np.abs(a[:, None] - b[None])
     angles = list(setting.angles)
-    difference[..., angles] = np.abs((difference[..., angles] + np.pi) % (2 * np.pi) - np.pi)
+    radians = difference[..., angles] * (2 * np.pi / setting.turn)
+    difference[..., angles] = np.abs((radians + np.pi) % (2 * np.pi) - np.pi)
     return (difference <= setting.tolerance).all(axis=-1)
 
 

@@ -34,17 +34,22 @@ class Mistake:
         Markdown that names the mistake and points at the slide, without giving the answer.
     answers : tuple of callable
         Each maps a `Variant` to one form of the mistaken answer.
+    turn : float
+        A full turn in the unit of the mistaken answer's joint angles.
     """
 
     note: str
     share: float
     feedback: str
     answers: tuple[Callable[[Variant], object], ...]
+    turn: float = 2 * np.pi
 
 
-def mistake(note: str, share: float, feedback: str, *answers: Callable[[Variant], object]) -> Mistake:
+def mistake(
+    note: str, share: float, feedback: str, *answers: Callable[[Variant], object], turn: float = 2 * np.pi
+) -> Mistake:
     """A `Mistake`; give the mistaken answers as functions of the variant."""
-    return Mistake(note, share, feedback, answers)
+    return Mistake(note, share, feedback, answers, turn)
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from dhkit import wire
@@ -100,8 +100,8 @@ def _judge_value(question: Question, value: Value, variant: Variant) -> Verdict:
     student = kind.read(form, value)
     setting = _setting(question)
 
-    def compare(answer) -> Comparison:
-        return kind.compare(form, student, _own(question, answer, variant), setting)
+    def compare(answer, turn: float = setting.turn) -> Comparison:
+        return kind.compare(form, student, _own(question, answer, variant), replace(setting, turn=turn))
 
     return _walk(question, compare)
 
@@ -125,12 +125,12 @@ def _judge_function(question: Question, evidence: Evidence, value: Value, varian
     if all(isinstance(student, Malformed) for student in students):
         raise students[0]
 
-    def compare(answer) -> Comparison:
-        function, cases = answer(variant), {}
+    def compare(answer, turn: float = setting.turn) -> Comparison:
+        unit, function, cases = replace(setting, turn=turn), answer(variant), {}
         for args, student in zip(arguments, students, strict=True):
             other = _read_or_complaint(kind, form, _decoded(form, function(*args)))
             unusable = [isinstance(answer, Malformed) for answer in (student, other)]
-            right = all(unusable) or (not any(unusable) and kind.compare(form, student, other, setting).equal)
+            right = all(unusable) or (not any(unusable) and kind.compare(form, student, other, unit).equal)
             cases.setdefault(question.group(*args), []).append(right)
         wrong = tuple(f"wrong for {case}" for case, right in cases.items() if not all(right))
         return Comparison(not wrong, 1 - len(wrong) / len(cases), wrong)
@@ -144,7 +144,7 @@ def _walk(question: Question, compare) -> Verdict:
     if against_reference.equal:
         return Verdict(1.0, "right", "**Right.**")
     for node in question.mistakes:
-        if any(compare(answer).equal for answer in node.answers):
+        if any(compare(answer, node.turn).equal for answer in node.answers):
             return Verdict(node.share, node.note, node.feedback)
     share = min(question.partial, against_reference.share)
     what = "; ".join(against_reference.remarks) or "the answer differs from the right one"

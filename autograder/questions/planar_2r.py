@@ -339,7 +339,7 @@ QUESTIONS = (
                 "**Each t1 is paired with the other posture's t2.** The pairs belong together: put them into the direct model.",
                 lambda variant: with_opposite_elbows(postures()),
             ),
-            mistake("degrees", 0.4, DEGREES, lambda variant: np.degrees(postures())),
+            mistake("degrees", 0.4, DEGREES, lambda variant: np.degrees(postures()), turn=360),
         ),
         angles=(0, 1),
         tolerance=1e-3,
@@ -385,7 +385,7 @@ QUESTIONS = (
                 "you take acos.",
                 lambda variant: inverse(beyond=None),
             ),
-            mistake("degrees", 0.4, DEGREES, lambda variant: lambda *target: np.degrees(solutions(*target))),
+            mistake("degrees", 0.4, DEGREES, lambda variant: lambda *target: np.degrees(solutions(*target)), turn=360),
             mistake(
                 "no_solution_at_all",
                 0.0,

@@ -266,7 +266,7 @@ QUESTIONS = (
                 lambda variant: with_first_t4(postures()[::-1]),
             ),
             mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, lambda variant: with_turned_d2(postures())),
-            mistake("degrees", 0.4, DEGREES, lambda variant: in_degrees(postures())),
+            mistake("degrees", 0.4, DEGREES, lambda variant: in_degrees(postures()), turn=360),
         ),
         angles=(0, 1, 3),
         tolerance=1e-3,

@@ -117,6 +117,12 @@ def test_joint_solutions(student, equal, remark):
         assert remark in "; ".join(result.remarks)
 
 
+def test_a_full_turn_has_360_degrees():
+    assert compare(SOLUTIONS, [[10, 370.01]], [[10, 10]], angles=(0, 1), tolerance=1e-3, turn=360).equal
+    assert not compare(SOLUTIONS, [[10, 370.1]], [[10, 10]], angles=(0, 1), tolerance=1e-3, turn=360).equal
+    assert not compare(SOLUTIONS, [[10, 10 + 2 * np.pi]], [[10, 10]], angles=(0, 1), tolerance=1e-3, turn=360).equal
+
+
 def test_a_heap_of_guesses_is_no_list_of_solutions():
     with pytest.raises(Malformed, match="4000 solutions"):
         read(SOLUTIONS, [[k, k] for k in range(4000)])
