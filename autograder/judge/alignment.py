@@ -110,14 +110,12 @@ def align(student: Chain, reference: Chain, senses: np.ndarray, price: Price, to
     senses: (n,) with +1 or -1 where the sense of an axis is prescribed, 0 where it is not.
     """
 
-    def search(base_price: float) -> Alignment | Parted:
-        return _Pair(student, reference, senses, lambda *use: base_price if use[0] is Freedom.BASE else price(*use), tolerance).align()
-
+    pair = _Pair(student, reference, senses, price, tolerance)
     # Whether the base moves is settled first: what it spares shows only at the other end of the chain.
-    kept, price_of_base = search(np.inf), price(Freedom.BASE, 0)
+    kept, price_of_base = pair.align(base_moves=False), price(Freedom.BASE, 0)
     if not np.isfinite(price_of_base) or (isinstance(kept, Alignment) and kept.cost <= price_of_base):
         return kept
-    moved = search(0.0)
+    moved = pair.align(base_moves=True)
     if isinstance(moved, Alignment):
         moved = replace(moved, cost=moved.cost + price_of_base)
         return moved if isinstance(kept, Parted) or moved.cost < kept.cost else kept
@@ -157,23 +155,30 @@ class _Pair:
         """Rotation of the hand that leaves the tool frame as it is."""
         return self.reference.end[:, :3, :3] @ _transposed(self.student.end[:, :3, :3])
 
-    def align(self) -> Alignment | Parted:
-        stretches = segments(self.reference.prismatic)
-        known = [self._determined_turns(segment) for segment in stretches]
+    @cached_property
+    def determined(self) -> list[tuple[Segment, _Turns | None, _Demands | None]]:
+        """The segments, with rotations and what they ask for where the segment is not free to turn."""
+        found = []
+        for segment in segments(self.reference.prismatic):
+            turns = self._determined_turns(segment)
+            found.append((segment, turns, turns and _Demands(self, segment, turns.rotations)))
+        return found
+
+    def align(self, base_moves: bool) -> Alignment | Parted:
         nodes: list[_Node] = []
-        for i, segment in enumerate(stretches):
-            turns = known[i]
+        for i, (segment, turns, demands) in enumerate(self.determined):
             if turns is None:
-                following = next((turn.rotations for turn in known[i:] if turn is not None), None)
+                following = next((later.rotations for _, later, _ in self.determined[i:] if later is not None), None)
                 turns = self._free_turns(segment, nodes, following)
-            previous, nodes = nodes, self._extend(segment, turns, nodes)
+                demands = _Demands(self, segment, turns.rotations)
+            previous, nodes = nodes, self._extend(turns, demands, nodes, base_moves)
             if not nodes:
                 cheapest = min(previous, key=lambda node: node.cost, default=None)
                 return Parted(segment, len(turns.rotations) > 0, self._senses(cheapest))
         best = None
         for node in sorted(nodes, key=lambda node: node.cost):
             if best is None or node.cost < best.cost:
-                found = self._resolved(stretches, node)
+                found = self._resolved(node, base_moves)
                 best = found if best is None or found.cost < best.cost else best
         return best
 
@@ -225,8 +230,6 @@ class _Pair:
     def _prices(self, segment: Segment, turns: np.ndarray, senses: np.ndarray) -> np.ndarray:
         prices = np.zeros(len(turns))
         carried = segment.carried
-        if segment.entry is None:
-            prices[self._differ(turns, np.eye(3))] += self.price(Freedom.BASE, 0)
         if segment.exit is None:
             prices[self._differ(turns, self.end_rotation)] += self.price(Freedom.TOOL, 0)
         x = turns @ _transposed(self.student.normals[:, carried])
@@ -243,18 +246,19 @@ class _Pair:
         return prices
 
     def _agree(self, found: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-        return (np.abs(found - wanted) <= self.tolerance).reshape(len(found), -1).all(axis=1)
+        return (np.abs(found - wanted) <= self.tolerance).all(axis=tuple(range(1, found.ndim)))
 
     def _differ(self, found: np.ndarray, wanted: np.ndarray) -> np.ndarray:
         return ~self._agree(found, wanted)
 
-    def _extend(self, segment: Segment, turns: _Turns, nodes: list[_Node]) -> list[_Node]:
+    def _extend(self, turns: _Turns, demands: _Demands, nodes: list[_Node], base_moves: bool) -> list[_Node]:
         """The nodes of a segment, each reached in the cheapest way."""
-        demands = _Demands(self, segment, turns.rotations)
-        joints = segment.directions
+        segment = demands.segment
         best: list[_Node] = []
         for c, rotation in enumerate(turns.rotations):
-            senses = dict(zip(joints, turns.senses[c].tolist(), strict=True))
+            if segment.entry is None and not base_moves and np.abs(rotation - np.eye(3)).max() > self.tolerance:
+                continue
+            senses = dict(zip(segment.directions, turns.senses[c].tolist(), strict=True))
             for node in nodes or [None]:
                 cost = float(turns.prices[c])
                 if node is not None:
@@ -264,7 +268,7 @@ class _Pair:
                     cost += node.cost + (self.price(Freedom.ZERO, segment.entry + 1) if turned else 0)
                     if not np.isfinite(cost):
                         continue
-                met, shift = demands.met(c, None if node is None else node.shift)
+                met, shift = demands.met(c, None if node is None else node.shift, base_moves)
                 if met:
                     self._keep(best, _Node(rotation, senses, shift, cost, node))
         return best
@@ -284,15 +288,15 @@ class _Pair:
             node = node.before
         return senses
 
-    def _resolved(self, stretches: list[Segment], node: _Node) -> Alignment:
+    def _resolved(self, node: _Node, base_moves: bool) -> Alignment:
         count, cost = self.reference.joints, node.cost
         senses = self._senses(node)
         rotations = np.empty((len(self.reference.end), count + 1, 3, 3))
-        for segment in reversed(stretches):
+        for segment, _, _ in reversed(self.determined):
             start = 0 if segment.entry is None else segment.entry + 1
             rotations[:, start : start + len(segment.sliders) + 1] = node.rotation[:, None]
             node = node.before
-        shifts, price = _Slides(self, rotations).shifts()
+        shifts, price = _Slides(self, rotations, base_moves).shifts()
         return Alignment(rotations, shifts, np.array([senses[joint] for joint in range(count)], dtype=int), cost + price)
 
 
@@ -304,15 +308,12 @@ class _Demands:
     """
 
     def __init__(self, pair: _Pair, segment: Segment, turns: np.ndarray) -> None:
-        self.tolerance = pair.length_tolerance
+        self.segment, self.tolerance = segment, pair.length_tolerance
         self.has_entry, self.has_exit = segment.entry is not None, segment.exit is not None
         axes, origins = pair.reference.axes, pair.reference.origins
         count = len(axes)
-        if self.has_entry:
-            head = axes[:, segment.entry, :, None]
-        else:
-            pinned = not np.isfinite(pair.price(Freedom.BASE, 0))
-            head = np.zeros((count, 3, 0)) if pinned else np.broadcast_to(np.eye(3), (count, 3, 3))
+        head = axes[:, segment.entry, :, None] if self.has_entry else np.broadcast_to(np.eye(3), (count, 3, 3))
+        self.head = head.shape[2]
         free = [j for j in segment.sliders if np.isfinite(pair.price(Freedom.ZERO, j + 1))]
         columns = np.concatenate([head, *(-axes[:, j, :, None] for j in free), np.zeros((count, 3, int(self.has_exit)))], axis=2)
 
@@ -349,31 +350,53 @@ class _Demands:
                 demand(until(joint), gap, np.eye(3) - along)
         self.rows = np.concatenate(rows, axis=1) if rows else None
         self.wanted = np.concatenate(wanted, axis=-1) if rows else None
-        self._solvers: dict[bool, tuple[np.ndarray, np.ndarray, bool]] = {}
 
-    def _solver(self, known: bool) -> tuple[np.ndarray, np.ndarray, bool]:
-        """Coefficients and their pseudo-inverse, the first shift known or not, and whether the last one follows."""
-        if known not in self._solvers:
-            rows = self.rows[:, :, 1:] if known else self.rows
-            inverse = _pseudo_inverse(rows)
-            follows = self.has_exit and bool(np.abs((inverse @ rows)[:, -1, -1] - 1).max() < _RANK)
-            self._solvers[known] = rows, inverse, follows
-        return self._solvers[known]
+    @cached_property
+    def _open(self) -> _Solved:
+        """All rotations, the first shift unknown."""
+        return _Solved.of(self.rows, self.wanted, self.tolerance)
 
-    def met(self, turn: int, shift: np.ndarray | None) -> tuple[bool, np.ndarray | None]:
+    @cached_property
+    def _rows_after_head(self) -> tuple[np.ndarray, np.ndarray]:
+        rows = self.rows[:, :, self.head :]
+        return rows, _pseudo_inverse(rows)
+
+    def met(self, turn: int, shift: np.ndarray | None, base_moves: bool) -> tuple[bool, np.ndarray | None]:
         """Whether rotation number `turn` fits a given shift of the first axis, and the shift of the last one."""
         if self.rows is None:
             return True, None
-        known = self.has_entry and shift is not None
-        rows, inverse, follows = self._solver(known)
-        wanted = self.wanted[turn]
-        if known:
-            wanted = wanted - self.rows[:, :, 0] * shift[:, None]
-        solution = (inverse @ wanted[..., None])[..., 0]
-        left = (rows @ solution[..., None])[..., 0] - wanted
-        if not (np.abs(left) <= self.tolerance).all():
-            return False, None
-        return True, solution[:, -1] if follows else None
+        base_stays = not self.has_entry and not base_moves
+        if not base_stays:
+            solved = self._open
+            if not solved.fits[turn]:
+                return False, None
+            if shift is None or solved.settled[0]:
+                met = shift is None or bool((np.abs(solved.solutions[turn, :, 0] - shift) <= self.tolerance).all())
+                return met, solved.solutions[turn, :, -1] if self.has_exit and solved.settled[-1] else None
+        wanted = self.wanted[turn] if base_stays else self.wanted[turn] - self.rows[:, :, 0] * shift[:, None]
+        solved = _Solved.of(self._rows_after_head[0], wanted[None], self.tolerance, self._rows_after_head[1])
+        last = self.has_exit and bool(solved.fits[0]) and solved.settled[-1]
+        return bool(solved.fits[0]), solved.solutions[0, :, -1] if last else None
+
+
+@dataclass(frozen=True)
+class _Solved:
+    """Least-squares solutions of ``rows x = wanted`` for several right-hand sides.
+
+    ``solutions`` (c, K, x); ``fits`` (c,) where they are exact; ``settled`` (x,) for unknowns with one value only.
+    """
+
+    solutions: np.ndarray
+    fits: np.ndarray
+    settled: np.ndarray
+
+    @classmethod
+    def of(cls, rows: np.ndarray, wanted: np.ndarray, tolerance: float, inverse: np.ndarray | None = None) -> _Solved:
+        inverse = _pseudo_inverse(rows) if inverse is None else inverse
+        solutions = (inverse @ wanted[..., None])[..., 0]
+        left = np.abs((rows @ solutions[..., None])[..., 0] - wanted)
+        settled = np.diagonal(inverse @ rows, axis1=1, axis2=2) > 1 - _RANK
+        return cls(solutions, (left <= tolerance).all(axis=(1, 2)), settled.all(axis=0))
 
 
 class _Slides:
@@ -382,8 +405,8 @@ class _Slides:
     Unknown are the shift of the base and the strokes of the prismatic joints.
     """
 
-    def __init__(self, pair: _Pair, rotations: np.ndarray) -> None:
-        self.pair, self.rotations = pair, rotations
+    def __init__(self, pair: _Pair, rotations: np.ndarray, base_moves: bool) -> None:
+        self.pair, self.rotations, self.base_moves = pair, rotations, base_moves
         self.tolerance = pair.length_tolerance
         reference, student = pair.reference, pair.student
         sliders = [j for j, slides in enumerate(reference.prismatic) if slides]
@@ -405,8 +428,8 @@ class _Slides:
         """Pairs of a price, infinite where there is no choice, and an equation (rows, right-hand side)."""
         pair, (count, _, _, size) = self.pair, self.moves.shape
         reference, student = pair.reference, pair.student
-        if not pair._differ(self.rotations[None, :, 0], np.eye(3))[0]:
-            yield pair.price(Freedom.BASE, 0), (np.broadcast_to(np.eye(3, size), (count, 3, size)), np.zeros((count, 3)))
+        if not self.base_moves:
+            yield np.inf, (np.broadcast_to(np.eye(3, size), (count, 3, size)), np.zeros((count, 3)))
         if not pair._differ(self.rotations[None, :, -1], pair.end_rotation)[0]:
             yield pair.price(Freedom.TOOL, 0), self._landing(-1, reference.end[:, :3, 3], student.end[:, :3, 3])
         for k, joint in enumerate(self.sliders):

@@ -15,7 +15,7 @@ import numpy as np
 from dhkit import wire
 from dhkit.public import DH_COLUMNS
 
-from .decode import Expression, decode_answer
+from .decode import Expression, Number, decode_answer
 from .evaluate import evaluate, symbols
 
 if TYPE_CHECKING:
@@ -153,8 +153,10 @@ class _Values:
 
     def affine(self, entry: Expression) -> tuple[np.ndarray, np.ndarray] | None:
         """Coefficients (m,) of the joint variables and the constant (K,); None if `entry` is no such sum."""
-        names = symbols(entry)
         nothing = np.zeros(len(self.joints))
+        if isinstance(entry, Number) and isinstance(entry.value, float):
+            return nothing, np.array([entry.value])
+        names = symbols(entry)
         if names.isdisjoint(self.joints):
             constant = evaluate(entry, self.points if names else {})
             return (nothing, constant.real) if _real(constant) else None
