@@ -18,7 +18,7 @@ MAX_MARKDOWN = 20_000
 
 _SHOWN = ("text/plain", "text/latex", "image/svg+xml", "image/png", "image/jpeg")
 _BASE64 = re.compile(r"[A-Za-z0-9+/=\s]*\Z")
-_CONTROL = re.compile(r"[\x00-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]+")
+_CONTROL = re.compile(r"(?:\x1b\[[0-9;?]*[A-Za-z]|[\x00-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff])+")
 
 
 def terminal_text(text: str, limit: int = 200) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -15,6 +14,8 @@ from .inert import terminal_text
 from .reading import Unreadable, plain_bytes
 from .restore import grade_id, is_check, question_id
 
+# From this many on, questions with the same note share it: "U1, T04, model: not_attempted".
+_MANY = 3
 _SAID_WHY = ("error", "timeout", "memory", "output_limit", "died", "not_run")
 
 
@@ -53,17 +54,24 @@ class Result:
     feedback: str | None = None
 
     def found(self) -> str:
-        """What was found, on one line: ``"T04: sign_of_d2; U1: not_attempted"`` or ``"all right"``."""
+        """What was found, on one line, by order of questions: ``"T04: sign_of_d2; U1: not_attempted"`` or ``"all right"``."""
         return "; ".join((*self._notes(), *self.remarks))
 
     def _notes(self) -> list[str]:
         if self.status == "failed":
             return []
-        notes = Counter(answer.note for answer in self.answers)
-        if len(notes) == 1 and len(self.answers) > 1:
-            (note,) = notes
+        if len(self.answers) > 1 and len({answer.note for answer in self.answers}) == 1:
+            note = self.answers[0].note
             return ["all right" if note == "right" else f"all {len(self.answers)}: {note}"]
-        return [_in_short(answer) for answer in self.answers if answer.note != "right"]
+        alike: dict[str, list[str]] = {}
+        for answer in self.answers:
+            if answer.note != "right":
+                alike.setdefault(_in_short(answer), []).append(answer.question.partition(".")[2])
+        return [
+            f"{question}: {short}"
+            for short, questions in alike.items()
+            for question in ([", ".join(questions)] if len(questions) >= _MANY else questions)
+        ]
 
     def as_json(self) -> dict:
         """The same as plain data, for ``grade --json``."""
@@ -72,7 +80,7 @@ class Result:
 
 def _in_short(answer: Answer) -> str:
     why = f" ({terminal_text(answer.trouble, 80)})" if answer.trouble and answer.note in _SAID_WHY else ""
-    return f"{answer.question.partition('.')[2]}: {answer.note}{why}"
+    return f"{answer.note}{why}"
 
 
 def graded_notebooks(course: Course, student: str, exercise: str) -> list[nbformat.NotebookNode]:
