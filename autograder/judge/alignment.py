@@ -151,6 +151,11 @@ class _Pair:
         self.end_is_frame = student.ends_with_joint and reference.ends_with_joint
 
     @cached_property
+    def _still(self) -> np.ndarray:
+        """The rotation that changes nothing, (1, K, 3, 3)."""
+        return np.broadcast_to(np.eye(3), (1, len(self.reference.end), 3, 3))
+
+    @cached_property
     def end_rotation(self) -> np.ndarray:
         """Rotation of the hand that leaves the tool frame as it is."""
         return self.reference.end[:, :3, :3] @ _transposed(self.student.end[:, :3, :3])
@@ -169,7 +174,8 @@ class _Pair:
         for i, (segment, turns, demands) in enumerate(self.determined):
             if turns is None:
                 following = next((later.rotations for _, later, _ in self.determined[i:] if later is not None), None)
-                turns = self._free_turns(segment, nodes, following)
+                stays = segment.entry is None and not base_moves
+                turns = self._checked(segment, self._still) if stays else self._free_turns(segment, nodes, following)
                 demands = _Demands(self, segment, turns.rotations)
             previous, nodes = nodes, self._extend(turns, demands, nodes, base_moves)
             if not nodes:
@@ -205,7 +211,7 @@ class _Pair:
 
     def _free_turns(self, segment: Segment, nodes: list[_Node], following: np.ndarray | None) -> _Turns:
         """Rotations worth trying for a segment that may turn about its direction."""
-        guesses = [np.broadcast_to(np.eye(3), self.end_rotation.shape), self.end_rotation, *(node.rotation for node in nodes)]
+        guesses = [*self._still, self.end_rotation, *(node.rotation for node in nodes)]
         guesses += [] if following is None else list(following)
         for joint in segment.directions[:1]:
             ours, theirs = self.reference.frames[:, joint, :3, :3], self.student.frames[:, joint, :3, :3]

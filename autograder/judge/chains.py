@@ -11,9 +11,12 @@ import numpy as np
 from .alignment import Alignment, Freedom, Parted, Price, Segment, align, segments
 from .axes import MAX_JOINTS, Chain, NotAChain, cross
 
-__all__ = ["Chain", "ChainMatch", "Freedom", "NotAChain", "Parting", "Used", "same_chain"]
+__all__ = ["SAME_MODEL", "Chain", "ChainMatch", "Freedom", "NotAChain", "Parting", "Used", "same_chain"]
 
 TOLERANCE = 1e-6
+
+SAME_MODEL = frozenset({Freedom.BASE, Freedom.TOOL, Freedom.ZERO, Freedom.SENSE})
+"""Pinned together, these leave only the choice of frames between base and tool: T(q) itself must be the same."""
 
 # Fewer freedoms explain a difference better; frames at the ends and joint variables count for more than the choice
 # of a frame between them.

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 import sympy
 from autograder.judge.axes import Chain, NotAChain
-from autograder.judge.chains import Freedom, same_chain
-from autograder.judge.decode import Blank, Call, Constant, Number, Symbol, decode_answer
-from autograder.reference import DHTable, robots
+from autograder.judge.chains import SAME_MODEL, Freedom, same_chain
+from autograder.judge.decode import Call, Number, Symbol, decode_answer
+from autograder.reference import robots
 from dhkit.wire import bundle, encode
 
 PI = np.pi
@@ -338,11 +338,11 @@ def fit(student, reference, signs, rng, starts=6, rounds=60):
     return float(np.sqrt((r**2).sum(axis=1).min()))
 
 
-def senses(table):
-    """All senses of the joints; joints that share a variable have theirs in common."""
-    n, coupling = len(table.joints), table.coupling[table.joints] != 0
-    shared = coupling.astype(int) @ coupling.T.astype(int) > 0
-    return [s for s in product((1, -1), repeat=n) if all(s[i] == s[k] for i, k in np.argwhere(shared))]
+def senses(student, reference):
+    """All senses of the joints for which ``C_ref (s q) = S C q``: joints that share a variable are not reversed one by one."""
+    relative = student.coupling[student.joints] * reference.coupling[reference.joints]
+    signs = [np.array(s) for s in product((1, -1), repeat=len(relative))]
+    return [s for s in signs if (np.abs((s[:, None] * relative).sum(axis=0)) == np.abs(relative).sum(axis=0)).all()]
 
 
 def same(student, reference, rng):
@@ -350,7 +350,7 @@ def same(student, reference, rng):
     ours, theirs = invariants(reference), invariants(student)
     if np.abs(ours - theirs).max() > 1e-4:
         return False
-    return fit(student, reference, senses(reference), rng) < 1e-6
+    return fit(student, reference, senses(student, reference), rng) < 1e-6
 
 
 # ---------------------------------------------------------------- tables of the catalogue
@@ -486,3 +486,274 @@ def test_single_cell_changes_are_rejected_unless_the_chain_is_the_same(name):
             verdicts[key] = same(student, reference, rng)
         assert not verdicts[key], (student.cells - reference.cells, str(match.parting))
     assert rejected
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_with_the_model_pinned_the_tables_of_one_model_are_equal_and_no_others(name):
+    rng = np.random.default_rng(200 + ROBOTS.index(name))
+    reference = catalogue_table(name)
+    ours, seen = chain(reference), set()
+    for k in range(60):
+        changes = Changes(reference if k % 2 else single_cell_change(reference, rng), rng)
+        for _ in range(rng.integers(1, 5)):
+            inner = [(what, row) for what, row in changes.possible() if what in ("flip_x", "flip_z", "turn_x", "origin", "axis")]
+            inner = [(what, row) for what, row in inner if row < len(changes.table.sigma) - 1 or k % 3 == 0]
+            if inner:
+                changes.do(*inner[rng.integers(len(inner))])
+        q = rng.uniform(-2, 2, (4, reference.coupling.shape[1]))
+        equal = close(posture(changes.table, q)[:, -1], posture(reference, q)[:, -1])
+        match = same_chain(chain(changes.table), ours, pinned=SAME_MODEL)
+        assert match.equal == equal
+        assert equal or match.pinned or match.parting
+        seen.add(equal)
+    assert seen == {True, False}
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_the_oracle_finds_gauge_changes(name):
+    """A control: where the chain is the same, the fit that confirms rejections finds it."""
+    rng = np.random.default_rng(300 + ROBOTS.index(name))
+    reference = catalogue_table(name)
+    for _ in range(2):
+        changes = Changes(reference, rng)
+        for _ in range(4):
+            possible = changes.possible()
+            changes.do(*possible[rng.integers(len(possible))])
+        assert same(changes.table, reference, rng)
+
+
+# ---------------------------------------------------------------- tables by name
+
+t1, t2, t3, t4, t5, t6, d2, a2, a3, d3, L1, L2 = sympy.symbols("t1:7 d2 a2 a3 d3 L1 L2")
+RIGHT = sympy.pi / 2
+LENGTHS = {name: np.random.default_rng(k).uniform(0.2, 1.5, 12) for k, name in enumerate(("a2", "a3", "d3", "L1", "L2"))}
+SCARA_JOINTS, ARM_JOINTS = ("t1", "t2", "d2", "t4"), ("t1", "t2", "t3", "t4", "t5", "t6")
+
+SCARA = [[0, 0, 0, 0, t1], [0, a2, 0, 0, t2], [1, a3, 0, -d2, 0], [0, 0, 0, 0, t4]]
+RX90 = [[0, 0, 0, 0, t1], [0, 0, RIGHT, 0, t2], [0, a3, 0, 0, t3], [0, 0, -RIGHT, d3, t4], [0, 0, RIGHT, 0, t5], [0, 0, -RIGHT, 0, t6]]
+
+
+def decoded(rows):
+    return sum(decode_answer(bundle("q", answer=encode(rows)), "q"), ())
+
+
+def read(rows, joints, lengths=LENGTHS):
+    return Chain.of_entries(decoded(rows), joints, lengths)
+
+
+def against_scara(rows, **options):
+    return same_chain(read(rows, SCARA_JOINTS), read(SCARA, SCARA_JOINTS), **options)
+
+
+def against_rx90(rows, lengths=LENGTHS, **options):
+    return same_chain(read(rows, ARM_JOINTS, lengths), read(RX90, ARM_JOINTS, lengths), **options)
+
+
+def against_numeric_rx90(rows):
+    return against_rx90(rows, {"a3": [0.45], "d3": [0.45]})
+
+
+def changed(rows, row, column, value):
+    table = [list(r) for r in rows]
+    table[row - 1][("sigma", "a", "alpha", "d", "theta").index(column)] = value
+    return table
+
+
+def columns_exchanged(rows):
+    return [[sigma, d, alpha, a, theta] for sigma, a, alpha, d, theta in rows]
+
+
+def classic(rows):
+    return [[here[0], *after[1:3], *here[3:]] for here, after in zip(rows, [*rows[1:], [0, 0, 0, 0, 0]])]
+
+
+def shifted(rows):
+    """The constants one row too high, the joint variables in their places."""
+    return [[here[0], *after[1:4], here[4]] for here, after in zip(rows, [*rows[1:], rows[0]])]
+
+
+@pytest.mark.parametrize(
+    ("compare", "rows", "parting"),
+    [
+        (against_scara, classic(SCARA), "joint 2: distance between axes 1 and 2 differs"),
+        (against_scara, columns_exchanged(SCARA[:2]) + SCARA[2:], "joint 2: distance between axes 1 and 2 differs"),
+        (against_scara, SCARA[:3], "joint 4: no joint instead of revolute"),
+        (against_scara, [*SCARA[:2], [0, a3, 0, 0, t4], [1, 0, 0, -d2, 0]], "joint 3: revolute instead of prismatic"),
+        (against_scara, changed(SCARA, 1, "theta", t1 * sympy.pi / 180), "joint 1: moved by 0.01745 t1 instead of moved by t1"),
+        (against_scara, changed(SCARA, 2, "theta", t2 - t1), "joint 2: moved by -t1 + t2 instead of moved by t2"),
+        (against_scara, changed(SCARA, 2, "theta", 0.3), "joint 2: prismatic instead of revolute"),
+        (against_rx90, classic(RX90), "joint 2: twist from Z1 0 deg instead of 90 deg"),
+        (against_rx90, shifted(RX90), "joint 2: twist from Z1 0 deg instead of 90 deg"),
+        (against_rx90, columns_exchanged(RX90), "joint 3: distance between axes 2 and 3 differs"),
+        (against_numeric_rx90, changed(RX90, 3, "a", 0.3), "joint 3: distance between axes 2 and 3 0.3 instead of 0.45"),
+        (against_numeric_rx90, changed(RX90, 4, "d", 0.39), "joint 4: offset along Z4 0.39 instead of 0.45"),
+        (against_rx90, changed(RX90, 5, "a", 0.1), "joint 5: distance between axes 4 and 5 0.1 instead of 0"),
+        (against_rx90, changed(RX90, 6, "alpha", 0), "joint 6: twist from Z5 0 deg instead of 90 deg"),
+    ],
+)  # fmt: skip
+def test_wrong_tables_part_at_the_first_joint_that_differs(compare, rows, parting):
+    match = compare(rows)
+    assert not match.equal
+    assert str(match.parting) == parting
+
+
+def test_the_sign_of_a_skew_twist_is_told():
+    skew = [[0, 0, 0, 0, t1], [0, 0.4, sympy.pi / 3, 0, t2], [0, 0.3, 0.5, 0.2, t3]]
+    match = same_chain(read(changed(skew, 2, "alpha", -sympy.pi / 3), ARM_JOINTS), read(skew, ARM_JOINTS))
+    assert str(match.parting) == "joint 2: twist from Z1 -60 deg instead of 60 deg"
+
+
+def test_the_printed_puma_parts_at_its_last_joint():
+    printed, right = (Chain.of_table(getattr(robots, name).table) for name in ("PUMA_PRINTED", "PUMA"))
+    match = same_chain(printed, right)
+    assert not match.equal
+    assert str(match.parting) == "joint 6: twist from Z5 0 deg instead of 90 deg"
+
+
+def test_d2_of_the_scara_counted_upwards_is_another_sense_of_joint_3():
+    upwards = changed(SCARA, 3, "d", d2)
+    match = against_scara(upwards)
+    assert match.equal and named(match) == {"sense of joint 3"} and match.senses == (1, 1, -1, 1)
+    pinned = against_scara(upwards, pinned={"sense of joint"})
+    assert not pinned.equal and not pinned.parting
+    assert [str(used) for used in pinned.pinned] == ["sense of joint 3"]
+    assert pinned.remarks == ("the same chain, but with another sense of joint 3",)
+
+
+def test_a_pin_of_one_joint_leaves_the_others_free():
+    zero = changed(SCARA, 2, "theta", t2 + 1)
+    assert against_scara(zero, pinned={"zero of joint 1", Freedom.BASE, Freedom.TOOL}).equal
+    match = against_scara(zero, pinned={"zero of joint 2", "zero of joint 1", "base frame"})
+    assert not match.equal and [str(used) for used in match.pinned] == ["zero of joint 2"]
+
+
+@pytest.mark.parametrize("pin", ["zero", "sense of joint 13", "origin", "sense of Y2", ""])
+def test_a_pin_that_is_no_freedom_is_refused(pin):
+    with pytest.raises(ValueError, match="no freedom"):
+        against_scara(SCARA, pinned={pin})
+
+
+@pytest.mark.parametrize(
+    ("rows", "freedoms", "offsets"),
+    [
+        (changed(SCARA, 1, "d", 0.1), {"base frame"}, {}),
+        (changed(SCARA, 4, "d", 0.1), {"tool frame"}, {}),
+        (changed(changed(SCARA, 1, "d", 0.1), 2, "d", -0.1), {"origin O1 along Z1"}, {}),
+        (changed(changed(SCARA, 3, "d", L1 - d2), 4, "d", -L1), {"origin O3 along Z3"}, {}),
+        (changed(SCARA, 3, "d", L1 - d2), {"zero of joint 3"}, {2: -LENGTHS["L1"]}),
+        (changed(SCARA, 2, "theta", t2 - RIGHT), {"zero of joint 2"}, {1: -PI / 2}),
+        (changed(SCARA, 1, "theta", -t1), {"sense of joint 1"}, {}),
+        ([*SCARA, [0, L2, 0, 0, 0]], {"tool frame"}, {}),
+        ([[0, L2, 0, 0, 0], *SCARA], {"base frame"}, {}),
+        (changed(changed(SCARA, 3, "a", a3 + L1), 4, "a", -L1), {"place of axis Z3"}, {}),
+        (changed(changed(SCARA, 3, "theta", 0.4), 4, "theta", t4 - 0.4), {"direction of X3"}, {}),
+    ],
+)
+def test_one_freedom_is_named_and_its_amount_told(rows, freedoms, offsets):
+    match = against_scara(rows)
+    assert match.equal and named(match) == freedoms
+    expected = np.zeros((12, 4))
+    for joint, offset in offsets.items():
+        expected[:, joint] = offset
+    assert close(match.offsets, expected)
+
+
+def test_rx90_with_all_twists_positive_is_the_same_robot():
+    pi = sympy.pi
+    rows = [RX90[0], RX90[1], *([0, a, RIGHT if i else 0, d, t + pi] for i, (a, d, t) in enumerate([(a3, 0, t3), (0, d3, t4), (0, 0, t5), (0, 0, t6)]))]
+    match = against_rx90(rows, pinned=SAME_MODEL)
+    assert match.equal and named(match) == {"sense of X3", "sense of X5"}
+    plain = [[*row[:4], t] for row, t in zip(rows, (t1, t2, t3, t4, t5, t6))]
+    assert against_rx90(plain).equal
+    assert not against_rx90(plain, pinned=SAME_MODEL).equal
+
+
+def test_kr210_with_another_base_tool_and_zero():
+    letters = robots.KR210.table
+    rows = [[row.sigma, *(entry.subs(letters.values) for entry in row.parameters)] for row in letters.rows]
+    joints = [joint.name for joint in letters.joints]
+    bare = same_chain(read(rows, joints), Chain.of_table(letters))
+    assert bare.equal and named(bare) == {"tool frame"}
+    no_offset = same_chain(read(changed(changed(rows, 2, "theta", letters.joints[1]), 1, "d", 0), joints), Chain.of_table(letters))
+    assert no_offset.equal and named(no_offset) == {"base frame", "zero of joint 2", "tool frame"}
+
+
+def test_coupled_joints_are_compared_as_they_are_coupled():
+    table = {name: Chain.of_table(getattr(robots, name).table) for name in ("PEN", "PEN_A", "PEN_B")}
+    assert not same_chain(table["PEN"], table["PEN_A"]).equal
+    match = same_chain(table["PEN_B"], table["PEN_A"])
+    assert match.equal and named(match) == {"zero of joint 2"}
+    assert close(match.offsets[0], (0, -PI / 2, 0))
+    for a, equal in ((0, True), (0.3, False)):
+        # t2 + t1 for t2 - t1 turns Z2 against Z1, which the axes allow only where they meet at right angles.
+        arm = [[0, 0, 0, 0, t1], [0, a, -RIGHT, 0.1, t2 - t1], [0, 0.4, 0, 0, t3]]
+        summed = changed(arm, 2, "theta", t2 + t1)
+        match = same_chain(read(summed, ARM_JOINTS), read(arm, ARM_JOINTS))
+        assert match.equal == equal
+        assert not equal or match.senses[:2] in ((1, -1), (-1, 1))
+        assert not same_chain(read(summed, ARM_JOINTS), read(arm, ARM_JOINTS), pinned=SAME_MODEL).equal
+
+
+def test_one_variable_in_two_rows_moves_both_zeros():
+    twice = [[0, 0, 0, 0, t1], [0, 0.3, 0, 0, t2], [0, 0.4, 0, 0, t2]]
+    both = changed(changed(twice, 2, "theta", t2 + 0.5), 3, "theta", t2 + 0.5)
+    match = same_chain(read(both, ARM_JOINTS), read(twice, ARM_JOINTS))
+    assert match.equal and close(match.offsets[0], (0, 0.5, 0, 0, 0, 0))
+    one = same_chain(read(changed(twice, 2, "theta", t2 + 0.5), ARM_JOINTS), read(twice, ARM_JOINTS))
+    assert not one.equal and one.parting
+
+
+def test_a_difference_at_one_sample_point_is_enough():
+    lengths = {"a3": np.full(12, 0.4), "d3": np.append(np.full(11, 0.4), 0.5)}
+    assert not against_rx90(changed(RX90, 4, "d", a3), lengths).equal
+    assert against_rx90(changed(RX90, 4, "d", d3 + 1e-9), lengths).equal
+    assert not against_rx90(changed(RX90, 4, "d", d3 + 1e-4), lengths).equal
+
+
+def test_twelve_joints_with_free_senses_are_no_exponential_search(monkeypatch):
+    from autograder.judge import alignment
+
+    steps = 0
+    met = alignment._Demands.met
+
+    def counted(*args):
+        nonlocal steps
+        steps += 1
+        return met(*args)
+
+    monkeypatch.setattr(alignment._Demands, "met", counted)
+    angles = sympy.symbols("t1:13")
+    rows = [[0, 0, RIGHT, 0, angle] for angle in angles]
+    turned = [[0, 0, RIGHT * (-1) ** (i // 2), 0, angle + i] for i, angle in enumerate(angles)]
+    names = [angle.name for angle in angles]
+    assert same_chain(read(turned, names), read(rows, names)).equal
+    assert steps < 12 * 64
+
+
+@pytest.mark.parametrize(
+    ("rows", "complaint"),
+    [
+        ([[0, 0, 0, t1, 0]], "row 1: sigma says revolute, but a joint variable stands in column d"),
+        ([[1, 0, 0, d2, t1]], "row 1: sigma says prismatic, but a joint variable stands in column theta"),
+        ([[0, 0, 0, 0, t1], [2, 0, 0, 0, t2]], "row 2: sigma is neither 0 nor 1"),
+        ([[t1, 0, 0, 0, t1]], "row 1: sigma is neither 0 nor 1"),
+        ([[0, t1, 0, 0, t1]], "row 1: a joint variable stands in column a"),
+        ([[0, 0, 0, 0, t1**2]], "row 1: theta is not a sum of joint variables and constants"),
+        ([[0, 0, 0, 0, sympy.sin(t1)]], "row 1: theta is not a sum of joint variables and constants"),
+        ([[0, 0, 0, 0, sympy.Mod(t1, 4)]], "row 1: theta is not a sum of joint variables and constants"),
+        ([[0, 0, 0, 0, L1 * t1]], "row 1: theta is not a sum of joint variables and constants"),
+        ([[0, sympy.I, 0, 0, t1]], "row 1: a is not a sum of joint variables and constants"),
+        ([[0, 0, 0, 0, None]], "row 1: theta is not filled in"),
+        ([[0, 0, 0, 0, t1]] * 30, "a table has rows of 5 entries, and at most 24 rows"),
+        ([[0, 0, 0, 0, t1]] * 13, "the table has 13 joints; at most 12 are compared"),
+    ],
+)  # fmt: skip
+def test_what_is_no_chain_is_refused_with_a_reason(rows, complaint):
+    with pytest.raises(NotAChain, match=complaint):
+        read(rows, ("t1", "t2", "d2"))
+
+
+def test_chains_at_different_sample_points_are_not_compared():
+    with pytest.raises(ValueError, match="sample points"):
+        against = {name: values[:5] for name, values in LENGTHS.items()}
+        same_chain(read(SCARA, SCARA_JOINTS, against), read(SCARA, SCARA_JOINTS))
