@@ -7,14 +7,33 @@ import json
 import os
 import sys
 
+
+def _positive(text: str) -> int:
+    if (number := int(text)) < 1:
+        raise argparse.ArgumentTypeError("must be at least 1")
+    return number
+
+
+def _bytes(text: str) -> int:
+    """Bytes, or with a K, M or G behind them KiB, MiB or GiB."""
+    factor = {"K": 1 << 10, "M": 1 << 20, "G": 1 << 30}.get(text[-1:].upper())
+    return _positive(text) if factor is None else _positive(text[:-1]) * factor
+
+
+def _seconds(text: str) -> float:
+    if not 0 < (number := float(text)) < float("inf"):
+        raise argparse.ArgumentTypeError("must be a positive number of seconds")
+    return number
+
+
 LIMITS = {
-    "memory": ("BYTES", int, "memory for one notebook, all its processes together (default 1073741824, 1 GiB)"),
-    "processes": ("N", int, "processes and threads of one notebook (default 128)"),
-    "file-size": ("BYTES", int, "size a file may grow to (default 67108864, 64 MiB)"),
-    "cpu-seconds": ("S", int, "processor time (default 120)"),
-    "cell-seconds": ("S", float, "time for one cell (default 30)"),
-    "notebook-seconds": ("S", float, "time for one notebook (default 120)"),
-    "output-bytes": ("BYTES", int, "output of one notebook (default 1048576, 1 MiB)"),
+    "memory": (_bytes, "1G", "memory for one notebook, all its processes together"),
+    "processes": (_positive, "128", "processes and threads of one notebook"),
+    "file-size": (_bytes, "64M", "size a file may grow to"),
+    "cpu-seconds": (_positive, "120", "processor time of one process"),
+    "cell-seconds": (_seconds, "30", "time for one cell"),
+    "notebook-seconds": (_seconds, "120", "time for one notebook"),
+    "output-bytes": (_bytes, "1M", "output of one notebook"),
 }
 
 
@@ -70,8 +89,9 @@ def _parser() -> argparse.ArgumentParser:
     grade.add_argument("--json", action="store_true", help="print one JSON object per submission instead of the table")
     sandbox = grade.add_argument_group("sandbox")
     sandbox.add_argument("--sandbox", choices=("bwrap", "none"), help="'none' runs students' code unprotected, as you")
-    for name, (metavar, kind, help) in LIMITS.items():
-        sandbox.add_argument(f"--{name}", type=kind, metavar=metavar, help=help)
+    for name, (kind, default, help) in LIMITS.items():
+        metavar = {_bytes: "BYTES", _seconds: "S"}.get(kind, "N")
+        sandbox.add_argument(f"--{name}", type=kind, metavar=metavar, help=f"{help} (default {default})")
 
     feedback = command("feedback", _feedback, "Write the feedback pages of all graded submissions.", "autograder feedback scara")
     feedback.add_argument("exercise")
@@ -91,12 +111,6 @@ def _parser() -> argparse.ArgumentParser:
 
     command("doctor", _doctor, "Say what this machine lacks for grading, and how to get it.", "autograder doctor")
     return parser
-
-
-def _positive(text: str) -> int:
-    if (number := int(text)) < 1:
-        raise argparse.ArgumentTypeError("must be at least 1")
-    return number
 
 
 def _course(options, config=None):

@@ -39,7 +39,7 @@ def write_bundle(root: Path, target: Path) -> list[str]:
     CourseError
         If there is nothing to hand out, or a file would give a solution away; nothing is written then.
     """
-    files = {f"{folder}/{path.relative_to(root / folder).as_posix()}": path for folder in FOLDERS for path in _files(root / folder)}
+    files = {path.relative_to(root).as_posix(): path for folder in FOLDERS for path in _files(root / folder)}
     if not any(name.startswith("exercises/") and name.endswith(".ipynb") for name in files):
         raise CourseError("there are no exercises to hand out; run: autograder release")
     for name, path in files.items():
@@ -47,8 +47,9 @@ def write_bundle(root: Path, target: Path) -> list[str]:
             _refuse_leak(name, path)
     top = target.stem
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, content in {"README.md": README.encode(), **{name: path.read_bytes() for name, path in files.items()}}.items():
-            archive.writestr(zipfile.ZipInfo(f"{top}/{name}", _EPOCH), content, zipfile.ZIP_DEFLATED)
+        archive.writestr(zipfile.ZipInfo(f"{top}/README.md", _EPOCH), README, zipfile.ZIP_DEFLATED)
+        for name, path in files.items():
+            archive.writestr(zipfile.ZipInfo(f"{top}/{name}", _EPOCH), path.read_bytes(), zipfile.ZIP_DEFLATED)
     return ["README.md", *files]
 
 
@@ -74,4 +75,5 @@ def _refuse_leak(name: str, path: Path) -> None:
             raise CourseError(f"{name} holds a solution; run: autograder release")
         cell = from_dict({**cell, "source": source})
         if is_solution(cell) and cell.metadata.nbgrader.get("checksum") != compute_checksum(cell):
-            raise CourseError(f"{name}: cell {cell.metadata.nbgrader.grade_id} is not as it was released; run: autograder release")
+            where = f"{name}: cell {cell.metadata.nbgrader.grade_id}"
+            raise CourseError(f"{where} is not as it was released; run: autograder release")

@@ -76,7 +76,8 @@ def student_names(step: Path) -> list[str]:
     """Students that have a folder in a step of the course (``submitted``, ``autograded`` ...)."""
     if not step.is_dir():
         return []
-    return sorted(entry.name for entry in os.scandir(step) if entry.is_dir() and entry.name.isprintable() and entry.name[0] != ".")
+    names = [entry.name for entry in os.scandir(step) if entry.is_dir()]
+    return sorted(name for name in names if name.isprintable() and not name.startswith("."))
 
 
 class _NothingElse(BaseConverter):
@@ -174,13 +175,13 @@ def refuse_unless_ready(converter: SubmissionAutograde) -> None:
         path = released_path(course, assignment, name)
         if not path.is_file():
             raise NotReady(f"{path} is missing; run: autograder release {assignment}")
-        cells = nbformat.read(path, as_version=4).cells
-        released = {grade_id(cell): (cell.metadata.nbgrader["points"], cell.source) for cell in cells if is_check(cell)}
+        cells = [cell for cell in nbformat.read(path, as_version=4).cells if grade_id(cell)]
+        checks = {grade_id(cell): (cell.metadata.nbgrader["points"], cell.source) for cell in cells if is_check(cell)}
         with Gradebook(course.db_url, course.course_id) as gradebook:
             notebook = gradebook.find_notebook(name, assignment)
             sources = {cell.name: cell.source for cell in notebook.source_cells}
             known = {cell.name: (cell.max_score, sources.get(cell.name)) for cell in notebook.grade_cells}
-        if not released.items() <= known.items():
+        if sources.keys() != {grade_id(cell) for cell in cells} or not checks.items() <= known.items():
             raise NotReady(f"{path} is not what the gradebook knows; run: autograder release {assignment}")
 
 

@@ -79,15 +79,18 @@ class Course:
             raise CourseError(f"nobody handed in anything: {self.step('submitted', '*', ' or '.join(handed_in))} is empty")
         for name in students:
             if name not in everybody:
-                raise CourseError(f"{name!r} handed in nothing for {' or '.join(handed_in)}; handed in: {', '.join(everybody)}")
-        wanted = {exercise: [name for name in names if not students or name in students] for exercise, names in handed_in.items()}
+                which = " or ".join(handed_in)
+                raise CourseError(f"{name!r} handed in nothing for {which}; handed in: {', '.join(everybody)}")
+        wanted = {
+            exercise: [name for name in names if not students or name in students] for exercise, names in handed_in.items()
+        }
         return {exercise: names for exercise, names in wanted.items() if names}
 
     def unusable_folders(self, exercise: str) -> list[str]:
         """Names of submission folders that hold line breaks or other characters that nbgrader cannot work with."""
         step = self.step("submitted")
-        names = [entry.name for entry in os.scandir(step) if entry.is_dir() and not entry.name.isprintable()] if step.is_dir() else []
-        return sorted(name for name in names if (step / name / exercise).is_dir())
+        names = os.listdir(step) if step.is_dir() else []
+        return sorted(name for name in names if not name.isprintable() and (step / name / exercise).is_dir())
 
 
 def open_course(root: Path, config: Config | None = None, verbose: bool = False) -> Course:

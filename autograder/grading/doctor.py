@@ -65,7 +65,8 @@ def _pins(path: Path) -> Iterator[tuple[str, str]]:
 
 def _alembic() -> Finding:
     path = Path(sys.executable).parent / "alembic"
-    return Finding("alembic", path.is_file(), str(path) if path.is_file() else "missing", f"nbgrader makes gradebooks with it; {SETUP}")
+    found = str(path) if path.is_file() else "not installed"
+    return Finding("alembic", path.is_file(), found, f"nbgrader makes gradebooks with it; {SETUP}")
 
 
 def _kernel() -> Finding:
@@ -79,11 +80,12 @@ def _sandbox() -> Finding:
     from autograder.sandbox import available
 
     reason = available()
-    return Finding("sandbox", reason is None, reason or "bubblewrap works", "or grade with --sandbox none, if you trust every submission")
+    cure = "or grade with --sandbox none, if you trust every submission"
+    return Finding("sandbox", reason is None, reason or "bubblewrap works", cure)
 
 
 def _gradebook(root: Path) -> Finding:
-    path = root / "gradebook.db"
+    path, cure = root / "gradebook.db", "restore it from a copy, or move it away and release again"
     if not path.exists():
         return Finding("gradebook", True, "none yet; autograder release makes it")
     try:
@@ -94,5 +96,5 @@ def _gradebook(root: Path) -> Finding:
         finally:
             connection.close()
     except sqlite3.Error as error:
-        return Finding("gradebook", False, f"{path}: {error}", "restore it from a copy, or move it away and release again")
-    return Finding("gradebook", state == "ok", f"{count} submissions", "restore it from a copy, or move it away and release again")
+        return Finding("gradebook", False, f"{path}: {error}", cure)
+    return Finding("gradebook", state == "ok", f"{count} submissions", cure)

@@ -14,7 +14,7 @@ from nbformat.notebooknode import NotebookNode
 
 from autograder import questions
 from autograder.judge import MIME, Evidence, Variant
-from autograder.sandbox import CellRun, Limits, run_notebook
+from autograder.sandbox import CellRun, Limits, Run, run_notebook
 
 from .inert import inert_outputs
 from .reading import MAX_FOLDER_BYTES, plain_files
@@ -85,7 +85,8 @@ def execute(
         run = run_notebook(nb, workdir=Path(work), limits=limits, mode=mode, followup=probe, hidden=hidden)
     counts = {index: count for count, index in enumerate(sorted(run.cells), 1)}
     outputs = {index: inert_outputs(cell.outputs, counts[index]) for index, cell in run.cells.items()}
-    evidence = {grade_id(nb.cells[index]): _evidence(nb, index, run, sent) for index in run.cells if is_check(nb.cells[index])}
+    checks = [index for index in run.cells if is_check(nb.cells[index])]
+    evidence = {grade_id(nb.cells[index]): _evidence(nb, index, run, sent) for index in checks}
     return Execution(stamp, outputs, evidence, run.message)
 
 
@@ -115,13 +116,14 @@ def _arguments(cell: NotebookNode, student: str, stamp: str, outputs: list) -> l
     return question.probes(Variant(student), seed)
 
 
-def _evidence(nb: NotebookNode, index: int, run, sent: dict[int, list]) -> Evidence:
+def _evidence(nb: NotebookNode, index: int, run: Run, sent: dict[int, list]) -> Evidence:
     trouble = _first_trouble(nb, index, run)
     probes = (sent[index], _last_bundle(run.followups.get(index, []))) if index in sent else None
-    return Evidence(_last_bundle(run.cells[index].outputs), probes, trouble and trouble.message, trouble.status if trouble else "ok")
+    bundle = _last_bundle(run.cells[index].outputs)
+    return Evidence(bundle, probes, trouble.message, trouble.status) if trouble else Evidence(bundle, probes)
 
 
-def _first_trouble(nb: NotebookNode, index: int, run) -> CellRun | None:
+def _first_trouble(nb: NotebookNode, index: int, run: Run) -> CellRun | None:
     """The first cell of a question that did not end well: an answer that looped explains a check without a name."""
     start = index
     while start > 0 and grade_id(nb.cells[start]) != answer_id(grade_id(nb.cells[index])):

@@ -19,7 +19,8 @@ from .results import Result, relative
 @contextmanager
 def progress_bar(exercise: str, count: int) -> Iterator[Callable[[str], None]]:
     """A bar on stderr; call what it gives with each student that is done."""
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TextColumn("{task.fields[last]}"))
+    last = TextColumn("{task.fields[last]}")
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), last)
     with Progress(*columns, console=Console(stderr=True)) as bar:
         task = bar.add_task(f"grading {exercise}", total=count, last="")
         yield lambda student: bar.update(task, advance=1, last=escape(terminal_text(student, 30)))

@@ -120,13 +120,7 @@ def command(root, *words):
 
 
 @pytest.fixture(scope="module")
-def before(handed_in):
-    """What the course and the temporary folder held before anything was graded."""
-    return {"files": contents(handed_in / "submitted"), "temporary": set(os.listdir(tempfile.gettempdir()))}
-
-
-@pytest.fixture(scope="module")
-def ours(handed_in, before, tmp_path_factory):
+def ours(handed_in, tmp_path_factory):
     """The class graded by our own command; the JSON lines it printed are in graded.jsonl."""
     root = tmp_path_factory.mktemp("ours") / "course"
     shutil.copytree(handed_in, root, symlinks=True, copy_function=copy_unless_pipe)
@@ -134,6 +128,8 @@ def ours(handed_in, before, tmp_path_factory):
     printed = root / "graded.jsonl"
     with printed.open("w") as file, pytest.MonkeyPatch.context() as patch:
         patch.setattr("sys.stdout", file)
+        patch.setattr(tempfile, "tempdir", str(root.parent / "temporary"))
+        os.mkdir(tempfile.tempdir)
         assert command(root, "grade", "scara", "--json", "--jobs", "2", *options) == 0
     return root
 
@@ -221,20 +217,19 @@ def test_stock_nbgrader_keeps_the_same_feedback(ours, stock, expected):
         assert pages[0].partition('id="notebook"')[0] == pages[1].partition('id="notebook"')[0]
 
 
-def test_submissions_are_not_touched(handed_in, before, ours, stock):
+def test_submissions_are_not_touched(handed_in, ours, stock):
     for root in (ours, stock):
         now = {path.replace(str(root), str(handed_in)): content for path, content in contents(root / "submitted").items()}
-        assert now == before["files"]
+        assert now == contents(handed_in / "submitted")
 
 
-def test_nothing_else_is_written_and_nothing_stays(ours, before, expected):
+def test_nothing_else_is_written_and_nothing_stays(ours, expected):
     made = {path.name for path in ours.iterdir()}
     assert made == {"solutions", "exercises", "submitted", "autograded", "feedback", "gradebook.db", "nbgrader_config.py", "graded.jsonl"}
     for step, name in (("autograded", "scara.ipynb"), ("feedback", "scara.html")):
         files = sorted(str(path.relative_to(ours / step)) for path in (ours / step).rglob("*") if not path.is_dir())
         assert files == sorted(f"{student}/scara/{name}" for student in expected)
-    left = set(os.listdir(tempfile.gettempdir())) - before["temporary"]
-    assert not [name for name in left if name.startswith("autograder")]
+    assert os.listdir(ours.parent / "temporary") == []
 
 
 def test_feedback_runs_no_script_of_a_student(ours):

@@ -42,9 +42,15 @@ def test_help_loads_nothing_heavy():
 def test_the_shown_defaults_are_those_of_the_sandbox():
     from autograder.sandbox import Limits
 
-    for name, (_, _, help) in cli.LIMITS.items():
-        value = getattr(Limits(), name.replace("-", "_"))
-        assert f"(default {value:g})" in help or f"(default {value}" in help
+    for name, (read, default, _) in cli.LIMITS.items():
+        assert read(default) == getattr(Limits(), name.replace("-", "_"))
+
+
+@pytest.mark.parametrize("words", [("--memory", "-1"), ("--memory", "1T"), ("--cell-seconds", "nan"), ("--jobs", "0"), ("--output-bytes", "")])
+def test_limits_that_make_no_sense_are_refused(empty_course, words, capsys):
+    with pytest.raises(SystemExit) as end:
+        run(empty_course, "grade", "scara", *words)
+    assert end.value.code == 2 and words[0] in capsys.readouterr().err
 
 
 def test_release_is_deterministic_and_gives_nothing_away(course_copy, small, capsys):

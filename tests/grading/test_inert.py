@@ -5,6 +5,7 @@ import re
 import pytest
 from nbformat.v4 import new_output
 
+from autograder.grading.export import _cell
 from autograder.grading.inert import inert_outputs, markdown2html, terminal_text
 from autograder.grading.points import comment, note_of, points
 
@@ -91,3 +92,9 @@ def test_no_other_share_becomes_points(share):
 def test_a_note_survives_the_gradebook():
     assert note_of(comment("sign_of_d2")) == "sign_of_d2"
     assert note_of("No response.") is None and note_of(None) is None and note_of("note: <b>") is None
+
+
+@pytest.mark.parametrize("text", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1"])
+def test_a_spreadsheet_sees_no_formula(text):
+    assert _cell(text) == f"'{text}"
+    assert _cell(-1.5) == -1.5 and _cell(None) == "" and _cell("ann") == "ann"
