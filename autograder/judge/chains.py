@@ -114,7 +114,7 @@ def same_chain(student: Chain, reference: Chain, *, pinned: Collection[str] = ()
     """Compare two chains given at the same sample points.
 
     pinned: freedoms that a right answer may not use, each for all joints (``"zero of joint"``, ``"sense of Z"``,
-    ``Freedom.BASE``) or for one (``"zero of joint 3"``, ``"sense of X2"``, ``"origin O2"``).
+    ``Freedom.BASE``) or for one, written as in `ChainMatch.freedoms` (``"zero of joint 3"``, ``"sense of X2"``).
     tolerance: largest accepted difference, in radians, and in lengths relative to the larger of 1 m and the robot.
 
     Raises ValueError for a name in `pinned` that is no freedom, or different numbers of sample points.
