@@ -27,7 +27,8 @@ POLL_SECONDS = 0.2
 MESSAGE_OVERHEAD = 200  # bytes: an output costs memory beyond its text
 SHARE = 8  # a cell may always use this part of the notebook's quota,
 SHARES_END = 4  # until the notebook has used its quota this many times
-KEPT_BYTES = 16 << 10  # of the outputs of a cell that passed the limit
+FLOOD = 16  # a cell that goes on beyond the quota is let run, unheard, until it has printed the quota this many times
+KEPT_BYTES = 16 << 10  # of the outputs of a cell that was stopped for what it printed
 QUEUED_MESSAGES = 8
 MESSAGE_CHARACTERS = 300
 OUT_OF_MEMORY = ("MemoryError", "_ArrayMemoryError")
@@ -55,12 +56,13 @@ class CellRun:
 class Progress:
     """State of a running cell.
 
-    ``allowed`` is what its outputs may add up to, in bytes; ``refused`` whether
-    a message was left out on the way; ``stopped`` is (status, message) once it
-    was interrupted.
+    ``allowed`` is what its outputs may add up to, in bytes, and ``flood`` where
+    it is stopped; ``refused`` whether a message was left out on the way;
+    ``stopped`` is (status, message) once it was interrupted.
     """
 
     allowed: int
+    flood: int
     refused: bool = False
     reply: dict[str, Any] | None = None
     idle: bool = False
@@ -72,6 +74,10 @@ class Progress:
     @property
     def over(self) -> bool:
         return self.refused or self.streamed > self.allowed
+
+    @property
+    def flooding(self) -> bool:
+        return self.refused or self.streamed > self.flood
 
 
 class SandboxClient(NotebookClient):
@@ -153,12 +159,12 @@ class SandboxClient(NotebookClient):
         refused_before = self.provisioner.relay.refused
         self.clear_before_next_output = False
         request = self.kc.execute(source, allow_stdin=False, stop_on_error=False)
-        progress = Progress(allowed=self._allowance())
+        progress = Progress(allowed=self._allowance(), flood=FLOOD * self.limits.output_bytes)
         while not self._finished(progress):
             now = time.monotonic()
             if progress.stopped is None and now >= deadline:
                 progress.stopped = ("timeout", "stopped: it took too long")
-            if progress.stopped is None and progress.over:
+            if progress.stopped is None and progress.flooding:
                 progress.stopped = ("output_limit", self._too_much_output())
             if progress.stopped is not None and progress.kill_at == float("inf"):
                 progress.kill_at = now + INTERRUPT_SECONDS
@@ -235,23 +241,23 @@ class SandboxClient(NotebookClient):
         return super().output(outs, msg, display_id, cell_index)
 
     def _too_much_output(self) -> str:
-        return f"stopped: more than {self.limits.output_bytes >> 10} KiB of output"
+        return f"stopped: printed far more than {self.limits.output_bytes >> 10} KiB"
 
     def _result(self, progress: Progress, cell: NotebookNode) -> CellRun:
         """The cell's run as told by what stopped it, or else by its reply."""
-        if progress.over:
+        if progress.flooding:
             cell.outputs = shortened(cell.outputs, KEPT_BYTES)
-        self.used += min(progress.streamed, KEPT_BYTES) if progress.over else progress.streamed
+        self.used += min(progress.streamed, KEPT_BYTES if progress.flooding else progress.allowed)
         reply = progress.reply or {}
         if progress.stopped is not None:
             return CellRun(*progress.stopped, cell.outputs)
-        if progress.over:
+        if progress.flooding:
             return CellRun("output_limit", self._too_much_output(), cell.outputs)
         if asks_to_exit(reply):
             self.lost = True
             return CellRun("died", "ended the kernel (exit)", cell.outputs)
         if reply.get("status") == "ok":
-            return CellRun("ok", "", cell.outputs)
+            return CellRun("ok", "what it printed beyond the limit was left out" if progress.over else "", cell.outputs)
         name, value = as_text(reply.get("ename")), as_text(reply.get("evalue"))
         message = one_line(f"{name}: {value}" if value else name) or "the cell was not completed"
         return CellRun("memory" if name in OUT_OF_MEMORY else "error", message, cell.outputs)
