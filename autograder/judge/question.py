@@ -11,6 +11,7 @@ import numpy as np
 from dhkit import public
 
 Draw = Callable[[np.random.Generator], dict[str, float]]
+Step = Callable[[object], object]
 
 
 @dataclass(frozen=True)
@@ -32,8 +33,9 @@ class Mistake:
         Share of the points, 0 to 1.
     feedback : str
         Markdown that names the mistake and points at the slide, without giving the answer.
-    answers : tuple of callable
-        Each maps a `Variant` to one form of the mistaken answer.
+    steps : tuple of callable
+        Each takes an answer and returns it with the mistake made, in one of its forms. Where two mistakes
+        meet in one answer, the step of one is applied to what the step of the other returns.
     turn : float
         A full turn in the unit of the mistaken answer's joint angles.
     """
@@ -41,15 +43,13 @@ class Mistake:
     note: str
     share: float
     feedback: str
-    answers: tuple[Callable[[Variant], object], ...]
+    steps: tuple[Step, ...]
     turn: float = 2 * np.pi
 
 
-def mistake(
-    note: str, share: float, feedback: str, *answers: Callable[[Variant], object], turn: float = 2 * np.pi
-) -> Mistake:
-    """A `Mistake`; give the mistaken answers as functions of the variant."""
-    return Mistake(note, share, feedback, answers, turn)
+def mistake(note: str, share: float, feedback: str, *steps: Step, turn: float = 2 * np.pi) -> Mistake:
+    """A `Mistake`; give its steps, each a function from an answer to the mistaken answer."""
+    return Mistake(note, share, feedback, steps, turn)
 
 
 @dataclass(frozen=True)

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import permutations, product
 
 from dhkit import wire
 
 from .decode import Blank, Failure, Function, Malformed, Value, decode_answer, decode_probes
 from .kinds import KINDS, Comparison, Kind, Setting, describe
-from .question import Question, Variant
+from .question import Question, Step, Variant
+
+
+Matches = Callable[[tuple[Step, ...], float], bool]
 
 
 @dataclass(frozen=True)
@@ -100,10 +105,10 @@ def _judge_value(question: Question, value: Value, variant: Variant) -> Verdict:
     student = kind.read(form, value)
     setting = _setting(question)
 
-    def compare(answer, turn: float = setting.turn) -> Comparison:
-        return kind.compare(form, student, _own(question, answer, variant), replace(setting, turn=turn))
+    def compare(steps: tuple[Step, ...], turn: float) -> Comparison:
+        return kind.compare(form, student, _own(question, steps, variant), replace(setting, turn=turn))
 
-    return _walk(question, compare)
+    return _walk(question, compare((), setting.turn), lambda steps, turn: compare(steps, turn).equal)
 
 
 def _judge_function(question: Question, evidence: Evidence, value: Value, variant: Variant) -> Verdict:
@@ -125,31 +130,47 @@ def _judge_function(question: Question, evidence: Evidence, value: Value, varian
     if all(isinstance(student, Malformed) for student in students):
         raise students[0]
 
-    def compare(answer, turn: float = setting.turn) -> Comparison:
-        unit, function, cases = replace(setting, turn=turn), answer(variant), {}
+    def rights(steps: tuple[Step, ...], turn: float) -> Iterator[bool]:
+        unit, function = replace(setting, turn=turn), _taken(steps, question.reference(variant))
         for args, student in zip(arguments, students, strict=True):
             other = _read_or_complaint(kind, form, _decoded(form, function(*args)))
             unusable = [isinstance(answer, Malformed) for answer in (student, other)]
-            right = all(unusable) or (not any(unusable) and kind.compare(form, student, other, unit).equal)
-            cases.setdefault(question.group(*args), []).append(right)
-        wrong = tuple(f"wrong for {case}" for case, right in cases.items() if not all(right))
-        return Comparison(not wrong, 1 - len(wrong) / len(cases), wrong)
+            yield all(unusable) or (not any(unusable) and kind.compare(form, student, other, unit).equal)
 
-    return _walk(question, compare)
+    cases: dict[str, list[bool]] = {}
+    for args, right in zip(arguments, rights((), setting.turn), strict=True):
+        cases.setdefault(question.group(*args), []).append(right)
+    wrong = tuple(f"wrong for {case}" for case, right in cases.items() if not all(right))
+    return _walk(question, Comparison(not wrong, 1 - len(wrong) / len(cases), wrong), lambda *mistaken: all(rights(*mistaken)))
 
 
-def _walk(question: Question, compare) -> Verdict:
-    """The response tree: right, then each mistake in order, then the parts that are right."""
-    against_reference = compare(question.reference)
+def _walk(question: Question, against_reference: Comparison, matches: Matches) -> Verdict:
+    """The response tree: right, then each mistake, then two mistakes at once, then the parts that are right.
+
+    `matches` tells whether the student's answer is the reference after the given wrong steps, angles modulo a turn.
+    """
     if against_reference.equal:
         return Verdict(1.0, "right", "**Right.**")
     for node in question.mistakes:
-        if any(compare(answer, node.turn).equal for answer in node.answers):
+        if any(matches((step,), node.turn) for step in node.steps):
             return Verdict(node.share, node.note, node.feedback)
+    for first, second in permutations(question.mistakes, 2):
+        turn = max(first.turn, second.turn)
+        if any(_possible(matches, steps, turn) for steps in product(first.steps, second.steps)):
+            note = "+".join(sorted((first.note, second.note)))
+            return Verdict(first.share * second.share, note, f"{first.feedback}\n\n{second.feedback}")
     share = min(question.partial, against_reference.share)
     what = "; ".join(against_reference.remarks) or "the answer differs from the right one"
     note = "partly_right" if share > 0 else "nothing_matched"
     return Verdict(share, note, f"**{'Partly right' if share > 0 else 'Not right'}.** {what[0].upper()}{what[1:]}.")
+
+
+def _possible(matches: Matches, steps: tuple[Step, ...], turn: float) -> bool:
+    """`matches`, but False where the second step cannot be taken after the first."""
+    try:
+        return matches(steps, turn)
+    except (ArithmeticError, IndexError, TypeError, ValueError):
+        return False
 
 
 def _setting(question: Question) -> Setting:
@@ -157,9 +178,16 @@ def _setting(question: Question) -> Setting:
 
 
 @lru_cache(maxsize=4096)
-def _own(question: Question, answer, variant: Variant) -> object:
-    """Our own answer, taken through the same wire and reader as a student's."""
-    return KINDS[question.public.kind].read(question.public, _decoded(question.public, answer(variant)))
+def _own(question: Question, steps: tuple[Step, ...], variant: Variant) -> object:
+    """The reference after wrong steps, taken through the same wire and reader as a student's answer."""
+    answer = _taken(steps, question.reference(variant))
+    return KINDS[question.public.kind].read(question.public, _decoded(question.public, answer))
+
+
+def _taken(steps: tuple[Step, ...], answer: object) -> object:
+    for step in steps:
+        answer = step(answer)
+    return answer
 
 
 def _decoded(form, answer: object) -> Value:

@@ -77,6 +77,14 @@ def postures():
     return solutions(*TARGET, *LENGTHS)
 
 
+def with_exchanged_lengths(answer):
+    return sympy.Matrix(answer).subs({L1: L2, L2: L1}, simultaneous=True)
+
+
+def with_subtracted_angles(answer):
+    return sympy.Matrix(answer).subs(t2, -t2)
+
+
 def with_first_t1(found):
     return [[found[0][0], q2] for _, q2 in found]
 
@@ -123,7 +131,7 @@ def where(px, py, l1, l2) -> str:
     return "targets within reach" if abs(l1 - l2) < r < l1 + l2 else "targets out of reach"
 
 
-def inverse(*, postures=slice(None), direction=np.arctan2, clipped=True, beyond=()):
+def inverse(*, direction=np.arctan2, clipped=True, beyond=()):
     """A student's inverse(x, y, L1, L2) with one thing done wrong; the default is right.
 
     `beyond` is returned out of reach, None standing for a function that fails there. Without clipping,
@@ -137,9 +145,8 @@ def inverse(*, postures=slice(None), direction=np.arctan2, clipped=True, beyond=
         heading = direction(py, px)
         if heading is None:
             return None
-        found = np.array(solutions(px, py, l1, l2))[postures].reshape(-1, 2)
         turn = heading - np.arctan2(py, px)
-        return [[q1 + turn, q2] for q1, q2 in found]
+        return [[q1 + turn, q2] for q1, q2 in solutions(px, py, l1, l2)]
 
     return answer
 
@@ -163,25 +170,25 @@ QUESTIONS = (
                 0.3,
                 "**This is the classic Denavit-Hartenberg table**, as on the Romanian slide whose header says modified. "
                 "In the modified form row i holds the link *before* joint i.",
-                lambda variant: classic_rows(ROWS),
+                classic_rows,
             ),
             mistake(
                 "a_and_d_exchanged",
                 0.3,
                 "**The columns a and d are exchanged.** a is counted along X, from one joint axis to the next; d along Z.",
-                lambda variant: exchanged(ROWS, "a", "d"),
+                lambda rows: exchanged(rows, "a", "d"),
             ),
             mistake(
                 "lengths_exchanged",
                 0.5,
                 "**The two lengths are exchanged.** Which link lies between the two joint axes?",
-                lambda variant: [ROWS[0], [*ROWS[1][:1], L2, *ROWS[1][2:]], [0, L1, 0, 0, 0]],
+                lambda rows: with_exchanged_lengths(sympy.Matrix(rows)).tolist(),
             ),
             mistake(
                 "tool_left_out",
                 0.5,
                 "**The tool length is missing.** The last row must bring the origin from the elbow to the hand.",
-                lambda variant: [*ROWS[:2], [0, 0, 0, 0, 0]],
+                lambda rows: [*rows[:2], [0, 0, 0, 0, 0]],
             ),
         ),
         partial=0.6,
@@ -190,20 +197,20 @@ QUESTIONS = (
         "planar_2r.model",
         reference=lambda variant: MODEL,
         mistakes=(
-            mistake("slide_misprint_y", 0.6, SLIDE_Y, lambda variant: [MODEL[0], MODEL[1] - L1 * sympy.sin(t1) + L1 * sympy.cos(t1)]),
-            mistake("angle_not_summed", 0.4, RELATIVE_ANGLE, lambda variant: summed(plane(t1, L1), plane(t2, L2))),
-            mistake("angles_subtracted", 0.4, DIFFERENCE, lambda variant: summed(plane(t1, L1), plane(t1 - t2, L2))),
+            mistake("slide_misprint_y", 0.6, SLIDE_Y, lambda model: [model[0], model[1] - L1 * sympy.sin(t1) + L1 * sympy.cos(t1)]),
+            mistake("angle_not_summed", 0.4, RELATIVE_ANGLE, lambda _: summed(plane(t1, L1), plane(t2, L2))),
+            mistake("angles_subtracted", 0.4, DIFFERENCE, with_subtracted_angles),
             mistake(
                 "x_and_y_exchanged",
                 0.5,
                 "**x and y are exchanged.** With both angles zero the arm lies on the x axis.",
-                lambda variant: MODEL[::-1],
+                lambda model: model[::-1],
             ),
             mistake(
                 "lengths_exchanged",
                 0.5,
                 "**The two lengths are exchanged.** L1 is the link at the base.",
-                lambda variant: summed(plane(t1, L2), plane(t1 + t2, L1)),
+                with_exchanged_lengths,
             ),
         ),
     ),
@@ -215,21 +222,21 @@ QUESTIONS = (
                 "tool_left_out",
                 0.6,
                 "**The tool is missing: this is 0T2, whose origin is at the elbow.** The hand is one length further on.",
-                lambda variant: product(TRANSFORMS[:2]),
+                lambda _: product(TRANSFORMS[:2]),
             ),
             mistake(
                 "reversed_product",
                 0.3,
                 "**The matrices are multiplied in the reverse order.** From left to right: base first, tool last.",
-                lambda variant: reversed_product(TRANSFORMS),
+                lambda _: reversed_product(TRANSFORMS),
             ),
             mistake(
                 "transposed_rotation",
                 0.4,
                 "**The rotation block is transposed.** Its columns, not its rows, are the axes of the hand's frame.",
-                lambda variant: transposed_rotation(HAND),
+                transposed_rotation,
             ),
-            mistake("angles_subtracted", 0.4, DIFFERENCE, lambda variant: HAND.subs(t2, -t2)),
+            mistake("angles_subtracted", 0.4, DIFFERENCE, with_subtracted_angles),
         ),
     ),
     Question(
@@ -241,19 +248,19 @@ QUESTIONS = (
                 0.5,
                 "**The sign is turned.** The law of cosines holds for the inner angle of the triangle; t2 is measured "
                 "from the prolonged link 1. Check with the stretched arm.",
-                lambda variant: -ELBOW_COSINE,
+                lambda cosine: -cosine,
             ),
             mistake(
                 "factor_two_missing",
                 0.5,
                 "**A factor 2 is missing in the denominator.** Check with the stretched arm: its cosine must be 1.",
-                lambda variant: 2 * ELBOW_COSINE,
+                lambda cosine: 2 * cosine,
             ),
             mistake(
                 "angle_instead_of_cosine",
                 0.7,
                 "**This is the angle; its cosine is asked for.** With acos the second posture is already lost.",
-                lambda variant: sympy.acos(ELBOW_COSINE),
+                sympy.acos,
             ),
         ),
         draw=reachable_point,
@@ -266,30 +273,30 @@ QUESTIONS = (
                 "atan_for_atan2",
                 0.5,
                 ATAN,
-                lambda variant: sympy.atan(y / x) - sympy.atan2(*FOREARM),
-                lambda variant: sympy.atan(y / x) - sympy.atan(FOREARM[0] / FOREARM[1]),
-                lambda variant: DIRECTION - sympy.atan(FOREARM[0] / FOREARM[1]),
+                lambda angle: angle.subs(DIRECTION, sympy.atan(y / x)),
+                lambda angle: angle.replace(sympy.atan2, lambda n, m: sympy.atan(n / m)),
+                lambda angle: angle.subs(sympy.atan2(*FOREARM), sympy.atan(FOREARM[0] / FOREARM[1])),
             ),
             mistake(
                 "atan2_arguments_exchanged",
                 0.4,
                 EXCHANGED,
-                lambda variant: sympy.atan2(x, y) - sympy.atan2(*FOREARM[::-1]),
-                lambda variant: sympy.atan2(x, y) - sympy.atan2(*FOREARM),
-                lambda variant: DIRECTION - sympy.atan2(*FOREARM[::-1]),
+                lambda angle: angle.replace(sympy.atan2, lambda n, m: sympy.atan2(m, n)),
+                lambda angle: angle.subs(DIRECTION, sympy.atan2(x, y)),
+                lambda angle: angle.subs(sympy.atan2(*FOREARM), sympy.atan2(*FOREARM[::-1])),
             ),
             mistake(
                 "sign_of_second_angle",
                 0.5,
                 "**The angle between link 1 and the line to the target has the wrong sign.** Draw the arm with a "
                 "small positive t2: on which side of the line does link 1 lie?",
-                lambda variant: DIRECTION + sympy.atan2(*FOREARM),
+                lambda angle: angle + 2 * sympy.atan2(*FOREARM),
             ),
             mistake(
                 "elbow_not_considered",
                 0.3,
                 "**This is the direction of the target.** Link 1 points there only when the arm is stretched.",
-                lambda variant: DIRECTION,
+                lambda _: DIRECTION,
             ),
         ),
         angles=(0,),
@@ -303,20 +310,20 @@ QUESTIONS = (
                 "r_min_without_absolute_value",
                 0.7,
                 "**r_min becomes negative when link 2 is the longer one.** A distance never does.",
-                lambda variant: [L1 - L2, L1 + L2],
-                lambda variant: [L2 - L1, L1 + L2],
+                lambda limits: [L1 - L2, limits[1]],
+                lambda limits: [L2 - L1, limits[1]],
             ),
             mistake(
                 "r_min_zero",
                 0.5,
                 "**The hand cannot come back to the base unless the links are equally long.** Fold the arm and measure.",
-                lambda variant: [0, L1 + L2],
+                lambda limits: [0, limits[1]],
             ),
             mistake(
                 "limits_exchanged",
                 0.6,
                 "**The two limits are exchanged.** r_min comes first.",
-                lambda variant: [L1 + L2, sympy.Abs(L1 - L2)],
+                lambda limits: limits[::-1],
             ),
         ),
     ),
@@ -324,22 +331,22 @@ QUESTIONS = (
         "planar_2r.postures",
         reference=lambda variant: postures(),
         mistakes=(
-            mistake("one_posture_missing", 0.5, ONE_POSTURE, lambda variant: postures()[:1], lambda variant: postures()[1:]),
+            mistake("one_posture_missing", 0.5, ONE_POSTURE, lambda found: found[:1], lambda found: found[1:]),
             mistake(
                 "posture_with_other_theta1",
                 0.4,
                 "**Both postures share one t1.** Each t2 has a t1 of its own: put your second solution into the "
                 "direct model and see where the hand goes.",
-                lambda variant: with_first_t1(postures()),
-                lambda variant: with_first_t1(postures()[::-1]),
+                with_first_t1,
+                lambda found: with_first_t1(found[::-1]),
             ),
             mistake(
                 "elbows_crossed",
                 0.4,
                 "**Each t1 is paired with the other posture's t2.** The pairs belong together: put them into the direct model.",
-                lambda variant: with_opposite_elbows(postures()),
+                with_opposite_elbows,
             ),
-            mistake("degrees", 0.4, DEGREES, lambda variant: np.degrees(postures()), turn=360),
+            mistake("degrees", 0.4, DEGREES, np.degrees, turn=360),
         ),
         angles=(0, 1),
         tolerance=1e-3,
@@ -352,45 +359,45 @@ QUESTIONS = (
                 "one_posture_missing",
                 0.5,
                 ONE_POSTURE,
-                lambda variant: inverse(postures=slice(0, 1)),
-                lambda variant: inverse(postures=slice(-1, None)),
+                lambda inverse: lambda *target: inverse(*target)[:1],
+                lambda inverse: lambda *target: inverse(*target)[-1:],
             ),
             mistake(
                 "atan_for_atan2",
                 0.5,
                 ATAN,
-                lambda variant: inverse(direction=atan_direction),
-                lambda variant: inverse(direction=atan_direction, clipped=False, beyond=None),
-                lambda variant: inverse(direction=plain_atan_direction),
-                lambda variant: inverse(direction=plain_atan_direction, clipped=False, beyond=None),
+                lambda _: inverse(direction=atan_direction),
+                lambda _: inverse(direction=atan_direction, clipped=False, beyond=None),
+                lambda _: inverse(direction=plain_atan_direction),
+                lambda _: inverse(direction=plain_atan_direction, clipped=False, beyond=None),
             ),
             mistake(
                 "unclipped_acos",
                 0.6,
                 "**On a limit your function fails.** Rounding pushes the cosine of t2 a hair above 1, where acos has no "
                 "value. What must the cosine be on the limit?",
-                lambda variant: inverse(clipped=False, beyond=None),
+                lambda _: inverse(clipped=False, beyond=None),
             ),
             mistake(
                 "limit_taken_for_out_of_reach",
                 0.7,
                 "**Some targets on a limit come back without a solution.** Rounding pushes the cosine of t2 a hair above "
                 "1: leave a small tolerance before you say that a target is out of reach.",
-                lambda variant: inverse(clipped=False),
+                lambda _: inverse(clipped=False),
             ),
             mistake(
                 "out_of_reach_fails",
                 0.7,
                 "**Out of reach your function fails instead of returning an empty list.** Test the cosine of t2 before "
                 "you take acos.",
-                lambda variant: inverse(beyond=None),
+                lambda _: inverse(beyond=None),
             ),
-            mistake("degrees", 0.4, DEGREES, lambda variant: lambda *target: np.degrees(solutions(*target)), turn=360),
+            mistake("degrees", 0.4, DEGREES, lambda inverse: lambda *target: np.degrees(inverse(*target)), turn=360),
             mistake(
                 "no_solution_at_all",
                 0.0,
                 "**Your function finds no solution for any target**, not even for those within reach.",
-                lambda variant: lambda *target: [],
+                lambda _: lambda *target: [],
             ),
         ),
         angles=(0, 1),

@@ -67,14 +67,15 @@ def subtracted_angles(answer):
     return sympy.Matrix(answer).subs(t2, -t2)
 
 
-def forward(rows, angle_unit=1.0):
-    """A student's forward(t1, t2, d2, t4, a2, a3) built on a table of our own."""
-    model = sympy.lambdify([t1, t2, d2, t4, a2, a3], product(DHTable(rows).transforms()))
+@lru_cache
+def forward():
+    """The direct model as a function of numbers: forward(t1, t2, d2, t4, a2, a3) -> (4, 4) array."""
+    return sympy.lambdify([t1, t2, d2, t4, a2, a3], U0)
 
-    def numeric(t1, t2, d2, t4, a2, a3):
-        return np.array(model(t1 * angle_unit, t2 * angle_unit, d2, t4 * angle_unit, a2, a3), dtype=float)
 
-    return numeric
+def with_angles_in_degrees(model):
+    """A direct model whose angles are taken in degrees."""
+    return lambda t1, t2, d2, t4, a2, a3: model(np.radians(t1), np.radians(t2), d2, np.radians(t4), a2, a3)
 
 
 def probes(rng: np.random.Generator) -> list[list[float]]:
@@ -117,26 +118,26 @@ QUESTIONS = (
         "scara.table",
         reference=lambda variant: ROWS,
         mistakes=(
-            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, lambda variant: negated(ROWS, 3, "d")),
-            mistake("classic_table", 0.3, CLASSIC_TABLE, lambda variant: classic_rows(ROWS)),
+            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, lambda rows: negated(rows, 3, "d")),
+            mistake("classic_table", 0.3, CLASSIC_TABLE, classic_rows),
             mistake(
                 "a_and_d_exchanged",
                 0.3,
                 "**The columns a and d are exchanged.** a is counted along X, from one joint axis to the next; d along Z.",
-                lambda variant: exchanged(ROWS, "a", "d"),
+                lambda rows: exchanged(rows, "a", "d"),
             ),
             mistake(
                 "a_and_alpha_exchanged",
                 0.4,
                 "**The columns a and alpha are exchanged.** Some slides print alpha first; the question asks for "
                 "sigma, a, alpha, d, theta.",
-                lambda variant: exchanged(ROWS, "a", "alpha"),
+                lambda rows: exchanged(rows, "a", "alpha"),
             ),
             mistake(
                 "sigma_all_revolute",
                 0.7,
                 "**One joint slides, and sigma must say so.** Look at what its motor changes: an angle or a distance?",
-                lambda variant: revolute_everywhere(ROWS),
+                revolute_everywhere,
             ),
         ),
         partial=0.6,
@@ -145,18 +146,18 @@ QUESTIONS = (
         "scara.dhm",
         reference=lambda variant: DHTable([(0, *GENERAL)], joints=GENERAL[3:]).transforms()[0],
         mistakes=(
-            mistake("classic_matrix", 0.3, CLASSIC_MATRIX, lambda variant: classic_transform(*GENERAL)),
+            mistake("classic_matrix", 0.3, CLASSIC_MATRIX, lambda _: classic_transform(*GENERAL)),
             mistake(
                 "sign_of_alpha",
                 0.5,
                 "**alpha turns the wrong way.** Write Rot_x(alpha) alone and see where it sends the y axis.",
-                lambda variant: DHTable([(0, *GENERAL)], joints=GENERAL[3:]).transforms()[0].subs(GENERAL[1], -GENERAL[1]),
+                lambda matrix: matrix.subs(GENERAL[1], -GENERAL[1]),
             ),
             mistake(
                 "transposed_rotation",
                 0.4,
                 TRANSPOSED,
-                lambda variant: transposed_rotation(DHTable([(0, *GENERAL)], joints=GENERAL[3:]).transforms()[0]),
+                transposed_rotation,
             ),
         ),
     ),
@@ -164,19 +165,19 @@ QUESTIONS = (
         "scara.U1",
         reference=lambda variant: U1,
         mistakes=(
-            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, lambda variant: turned_quill(U1)),
-            mistake("reversed_product", 0.3, REVERSED, lambda variant: reversed_product(TRANSFORMS[1:])),
+            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, turned_quill),
+            mistake("reversed_product", 0.3, REVERSED, lambda _: reversed_product(TRANSFORMS[1:])),
             mistake(
                 "one_matrix_only",
                 0.2,
                 "**This is one elementary matrix.** U1 gathers everything from frame 1 to the hand.",
-                *(lambda variant, matrix=matrix: matrix for matrix in TRANSFORMS[1:3]),
+                *(lambda _, matrix=matrix: matrix for matrix in TRANSFORMS[1:3]),
             ),
             mistake(
                 "one_step_short",
                 0.4,
                 "**The recursion stopped one step too early.** This is U2 = 2T4.",
-                lambda variant: product(TRANSFORMS[2:]),
+                lambda _: product(TRANSFORMS[2:]),
             ),
         ),
     ),
@@ -184,21 +185,21 @@ QUESTIONS = (
         "scara.T04",
         reference=lambda variant: U0,
         mistakes=(
-            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, lambda variant: turned_quill(U0)),
-            mistake("reversed_product", 0.3, REVERSED, lambda variant: reversed_product(TRANSFORMS)),
-            mistake("angles_subtracted", 0.4, DIFFERENCE, lambda variant: subtracted_angles(U0)),
+            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, turned_quill),
+            mistake("reversed_product", 0.3, REVERSED, lambda _: reversed_product(TRANSFORMS)),
+            mistake("angles_subtracted", 0.4, DIFFERENCE, subtracted_angles),
             mistake(
                 "classic_matrices",
                 0.3,
                 CLASSIC_MATRIX,
-                lambda variant: product([classic_transform(*row[1:]) for row in ROWS]),
+                lambda _: product([classic_transform(*row[1:]) for row in ROWS]),
             ),
-            mistake("transposed_rotation", 0.4, TRANSPOSED, lambda variant: transposed_rotation(U0)),
+            mistake("transposed_rotation", 0.4, TRANSPOSED, transposed_rotation),
             mistake(
                 "one_step_short",
                 0.4,
                 "**The recursion stopped one step too early.** This is U1 = 1T4: the first joint is not in it.",
-                lambda variant: U1,
+                lambda _: U1,
             ),
         ),
     ),
@@ -206,19 +207,19 @@ QUESTIONS = (
         "scara.model",
         reference=lambda variant: MODEL,
         mistakes=(
-            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, lambda variant: turned_quill(MODEL)),
-            mistake("angles_subtracted", 0.4, DIFFERENCE, lambda variant: subtracted_angles(MODEL)),
+            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, turned_quill),
+            mistake("angles_subtracted", 0.4, DIFFERENCE, subtracted_angles),
             mistake(
                 "angle_not_summed",
                 0.4,
                 RELATIVE_ANGLE,
-                lambda variant: [a2 * sympy.cos(t1) + a3 * sympy.cos(t2), a2 * sympy.sin(t1) + a3 * sympy.sin(t2), *MODEL[2:]],
+                lambda model: [a2 * sympy.cos(t1) + a3 * sympy.cos(t2), a2 * sympy.sin(t1) + a3 * sympy.sin(t2), *model[2:]],
             ),
             mistake(
                 "theta4_left_out",
                 0.7,
                 "**The hand's own joint is missing in theta.** Joint 4 turns the hand too.",
-                lambda variant: [*MODEL[:3], t1 + t2],
+                lambda model: [*model[:3], t1 + t2],
             ),
         ),
         partial=0.7,
@@ -227,12 +228,12 @@ QUESTIONS = (
     Question("scara.d2_sign", reference=lambda variant: "B"),
     Question(
         "scara.forward",
-        reference=lambda variant: forward(ROWS),
+        reference=lambda variant: forward(),
         mistakes=(
-            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, lambda variant: forward(negated(ROWS, 3, "d"))),
-            mistake("degrees", 0.4, DEGREES, lambda variant: forward(ROWS, angle_unit=np.pi / 180)),
+            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, lambda model: lambda t1, t2, d2, *rest: model(t1, t2, -d2, *rest)),
+            mistake("degrees", 0.4, DEGREES, with_angles_in_degrees),
             mistake(
-                "angles_subtracted", 0.4, DIFFERENCE, lambda variant: forward([ROWS[0], [*ROWS[1][:4], -t2], *ROWS[2:]])
+                "angles_subtracted", 0.4, DIFFERENCE, lambda model: lambda t1, t2, *rest: model(t1, -t2, *rest)
             ),
         ),
         probe=probes,
@@ -245,28 +246,28 @@ QUESTIONS = (
                 "one_posture_missing",
                 0.5,
                 "**One posture is missing.** A cosine alone does not tell the sign of its angle.",
-                lambda variant: postures()[:1],
-                lambda variant: postures()[1:],
+                lambda solutions: solutions[:1],
+                lambda solutions: solutions[1:],
             ),
             mistake(
                 "posture_with_other_theta1",
                 0.4,
                 "**Both postures share one t1.** Each t2 has a t1 of its own: put your second solution into the "
                 "direct model and see where the hand goes.",
-                lambda variant: with_first_t1(postures()),
-                lambda variant: with_first_t1(postures()[::-1]),
-                lambda variant: with_first_t1_and_heading(postures()),
-                lambda variant: with_first_t1_and_heading(postures()[::-1]),
+                with_first_t1,
+                lambda solutions: with_first_t1(solutions[::-1]),
+                with_first_t1_and_heading,
+                lambda solutions: with_first_t1_and_heading(solutions[::-1]),
             ),
             mistake(
                 "posture_with_other_theta4",
                 0.6,
                 "**Both postures share one t4.** The heading is the sum of three angles, and two of them have changed.",
-                lambda variant: with_first_t4(postures()),
-                lambda variant: with_first_t4(postures()[::-1]),
+                with_first_t4,
+                lambda solutions: with_first_t4(solutions[::-1]),
             ),
-            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, lambda variant: with_turned_d2(postures())),
-            mistake("degrees", 0.4, DEGREES, lambda variant: in_degrees(postures()), turn=360),
+            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, with_turned_d2),
+            mistake("degrees", 0.4, DEGREES, in_degrees, turn=360),
         ),
         angles=(0, 1, 3),
         tolerance=1e-3,

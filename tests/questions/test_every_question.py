@@ -3,6 +3,8 @@
 Right answers in several forms earn full marks, every mistake of the tree is named, perturbed answers are refused.
 """
 
+from itertools import permutations
+
 import numpy as np
 import pytest
 import sympy
@@ -100,14 +102,31 @@ def test_right_functions_earn_everything(question):
 def mistakes():
     for question in QUESTIONS:
         for node in question.mistakes:
-            for i, answer in enumerate(node.answers):
-                yield pytest.param(question, node, answer, id=f"{question.id}: {node.note} {i}")
+            for i, step in enumerate(node.steps):
+                yield pytest.param(question, node, step, id=f"{question.id}: {node.note} {i}")
 
 
-@pytest.mark.parametrize(("question", "node", "answer"), list(mistakes()))
-def test_every_mistake_is_named(question, node, answer):
-    found = verdict(question, answer(VARIANT))
+@pytest.mark.parametrize(("question", "node", "step"), list(mistakes()))
+def test_every_mistake_is_named(question, node, step):
+    found = verdict(question, step(question.reference(VARIANT)))
     assert (found.note, found.share, found.feedback) == (node.note, node.share, node.feedback)
+
+
+@pytest.mark.parametrize("question", DATA, ids=ids(DATA))
+def test_two_mistakes_at_once_are_named(question):
+    for first, second in permutations(question.mistakes, 2):
+        answer = second.steps[0](first.steps[0](question.reference(VARIANT)))
+        note = verdict(question, answer).note
+        assert note not in ("partly_right", "nothing_matched", "malformed"), f"{first.note}, then {second.note}"
+
+
+def test_two_mistakes_earn_the_product_of_their_shares_and_both_feedbacks():
+    question = find("scara.table")
+    signs, classic = (next(n for n in question.mistakes if n.note == note) for note in ("sign_of_d2", "classic_table"))
+    found = verdict(question, classic.steps[0](signs.steps[0](question.reference(VARIANT))))
+    assert found.note == "classic_table+sign_of_d2"
+    assert found.share == pytest.approx(signs.share * classic.share)
+    assert signs.feedback in found.feedback and classic.feedback in found.feedback
 
 
 @pytest.mark.parametrize("question", QUESTIONS, ids=ids(QUESTIONS))
@@ -115,7 +134,7 @@ def test_a_tree_is_well_formed(question):
     notes = [node.note for node in question.mistakes]
     assert len(set(notes)) == len(notes)
     assert all(0 <= node.share < 1 and node.feedback.strip() for node in question.mistakes)
-    assert all(node.answers for node in question.mistakes)
+    assert all(node.steps for node in question.mistakes)
 
 
 @pytest.mark.parametrize("question", QUESTIONS, ids=ids(QUESTIONS))
