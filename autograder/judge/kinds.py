@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from dhkit.public import DH_COLUMNS, PublicQuestion
 
+from .chains import Chain, NotAChain, same_chain
 from .decode import Blank, Call, Constant, Expression, Failure, Foreign, Function, Malformed, Number, Record, Symbol, Text
 from .evaluate import evaluate, evaluate_exactly, symbols
 
@@ -22,11 +23,15 @@ MAX_SOLUTIONS = 100
 
 @dataclass(frozen=True)
 class Comparison:
-    """How two answers compare: equal or not, the share of parts that agree, and what differs, in words."""
+    """How two answers compare: equal or not, the share of parts that agree, and what differs, in words.
+
+    `note` is the answer note of a difference that has a name of its own.
+    """
 
     equal: bool
     share: float
     remarks: tuple[str, ...] = ()
+    note: str = ""
 
 
 @dataclass(frozen=True)
@@ -41,6 +46,8 @@ class Setting:
         Indices of the vector entries (or () and (0,) for a single expression) that are angles, compared modulo 2 pi.
     tolerance : float
         Largest difference that still counts as equal, relative to the larger of 1 and the reference's size.
+    pinned : tuple of str
+        Freedoms of the DHm convention that a right table may not use (see `chains.same_chain`).
     turn : float
         A full turn in the unit of the joint angles: 2 pi, or 360 where both answers are in degrees.
     """
@@ -48,6 +55,7 @@ class Setting:
     points: Mapping[str, np.ndarray]
     angles: tuple[int, ...] = ()
     tolerance: float = 1e-6
+    pinned: tuple[str, ...] = ()
     turn: float = 2 * np.pi
 
 
@@ -216,6 +224,23 @@ def _compare_matrix(question: PublicQuestion, student: tuple, other: tuple, sett
 
 
 def _compare_table(question: PublicQuestion, student: tuple, other: tuple, setting: Setting) -> Comparison:
+    """Two tables are equal when they describe the same chain without using a freedom that the question pins."""
+    cells = _compare_cells(student, other, setting)
+    if cells.equal:
+        return cells
+    try:
+        mine, theirs = (Chain.of_entries(entries, question.joints, setting.points) for entries in (student, other))
+        match = same_chain(mine, theirs, pinned=setting.pinned)
+    except NotAChain:
+        return cells
+    if match.equal:
+        return Comparison(True, 1.0, tuple(f"another {used}" for used in match.freedoms))
+    if match.parting:
+        return Comparison(False, cells.share, (f"joint {match.parting.joint}: {match.parting.quantity} differs",))
+    return Comparison(False, 1.0, match.remarks, "same_chain_other_frames")
+
+
+def _compare_cells(student: tuple, other: tuple, setting: Setting) -> Comparison:
     width = len(DH_COLUMNS)
     is_angle = [name in ("alpha", "theta") for name in DH_COLUMNS]
     agree = np.array(_matches(student, other, setting, lambda i: is_angle[i % width])).reshape(-1, width)

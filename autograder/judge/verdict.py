@@ -150,7 +150,8 @@ def _walk(question: Question, against_reference: Comparison, matches: Matches) -
     `matches` tells whether the student's answer is the reference after the given wrong steps, angles modulo a turn.
     """
     if against_reference.equal:
-        return Verdict(1.0, "right", "**Right.**")
+        used = ", ".join(against_reference.remarks)
+        return Verdict(1.0, "right", "**Right.**" + (f" The same chain as ours, with {used}." if used else ""))
     for node in question.mistakes:
         if any(matches((step,), node.turn) for step in node.steps):
             return Verdict(node.share, node.note, node.feedback)
@@ -161,7 +162,7 @@ def _walk(question: Question, against_reference: Comparison, matches: Matches) -
             return Verdict(first.share * second.share, note, f"{first.feedback}\n\n{second.feedback}")
     share = min(question.partial, against_reference.share)
     what = "; ".join(against_reference.remarks) or "the answer differs from the right one"
-    note = "partly_right" if share > 0 else "nothing_matched"
+    note = against_reference.note or ("partly_right" if share > 0 else "nothing_matched")
     return Verdict(share, note, f"**{'Partly right' if share > 0 else 'Not right'}.** {what[0].upper()}{what[1:]}.")
 
 
@@ -174,7 +175,7 @@ def _possible(matches: Matches, steps: tuple[Step, ...], turn: float) -> bool:
 
 
 def _setting(question: Question) -> Setting:
-    return Setting(question.points(), question.angles, question.tolerance)
+    return Setting(question.points(), question.angles, question.tolerance, question.pinned)
 
 
 @lru_cache(maxsize=4096)

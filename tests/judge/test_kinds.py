@@ -85,8 +85,27 @@ def test_table_credit_is_per_row_and_angles_wrap():
     rows = [[0, 0, 0, 0, t1], [0, 1, sympy.pi / 2, 0, t2]]
     wrapped = [[0, 0, 2 * sympy.pi, 0, t1], [0, 1, -3 * sympy.pi / 2, 0, t2]]
     assert compare(form, wrapped, rows).equal
-    wrong = compare(form, [rows[0], [0, 1, -sympy.pi / 2, 0, t2]], rows)
-    assert wrong.share == 0.5 and wrong.remarks == ("row 2: alpha",)
+    assert compare(form, [rows[0], [0, 2, sympy.pi / 2, 0, t2]], rows).share == 0.5
+
+
+def test_a_table_of_the_same_chain_is_right_within_the_freedoms_left():
+    form = question("dh_table", shape=(2, 5), joints=("t1", "t2"))
+    rows = [[0, 0, 0, 0, t1], [0, 1, sympy.pi / 2, 0, t2]]
+    turned_x1 = [[0, 0, 0, 0, t1 + sympy.pi], [0, -1, -sympy.pi / 2, 0, t2 + sympy.pi]]
+    found = compare(form, turned_x1, rows)
+    assert found.equal and found.remarks == ("another sense of X1",)
+    pinned = compare(form, turned_x1, rows, pinned=("sense of X",))
+    assert not pinned.equal and pinned.note == "same_chain_other_frames" and "sense of X1" in pinned.remarks[0]
+    other = compare(form, [rows[0], [0, 2, sympy.pi / 2, 0, t2]], rows)
+    assert not other.equal and "joint 2: distance between axes" in other.remarks[0]
+
+
+def test_what_is_no_chain_is_compared_cell_by_cell():
+    form = question("dh_table", shape=(2, 5), joints=("t1", "t2"))
+    rows = [[0, 0, 0, 0, t1], [0, 1, 0, 0, t2]]
+    for broken in ([rows[0], [0, 1, 0, 0, sympy.sin(t2)]], [rows[0], [0.5, 1, 0, 0, t2]], [rows[0], [0, 1, 0, ..., t2]]):
+        found = compare(form, broken, rows)
+        assert not found.equal and found.share == 0.5 and found.remarks[0].startswith("row 2")
 
 
 def test_blank_cells_are_wrong_cells():

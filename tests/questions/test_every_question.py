@@ -112,6 +112,24 @@ def test_every_mistake_is_named(question, node, step):
     assert (found.note, found.share, found.feedback) == (node.note, node.share, node.feedback)
 
 
+TURNED_X2 = [[0, 0, 0, 0, "t1"], [0, "a2", 0, 0, "t2 + pi"], [1, "-a3", 0, "-d2", "pi"], [0, 0, 0, 0, "t4"]]
+SHIFTED_O3 = [[0, 0, 0, 0, "t1"], [0, "a2", 0, 0, "t2"], [1, "a3", 0, "-d2 - a2", 0], [0, 0, 0, "a2", "t4"]]
+DOWNWARDS = [[0, 0, 0, 0, "t1"], [0, "a2", 0, 0, "t2"], [1, "a3", "pi", "d2", 0], [0, 0, 0, 0, "-t4"]]
+
+
+@pytest.mark.parametrize(
+    ("rows", "note", "words"),
+    [
+        (TURNED_X2, "right", "another sense of X2"),
+        (SHIFTED_O3, "right", "another origin O3 along Z3"),
+        (DOWNWARDS, "same_chain_other_frames", "another tool frame"),
+    ],
+)
+def test_the_scara_in_other_frames(rows, note, words):
+    found = verdict(find("scara.table"), [[sympy.sympify(cell) for cell in row] for row in rows])
+    assert found.note == note and words in found.feedback
+
+
 @pytest.mark.parametrize("question", DATA, ids=ids(DATA))
 def test_two_mistakes_at_once_are_named(question):
     for first, second in permutations(question.mistakes, 2):
