@@ -46,7 +46,7 @@ class Setting:
         Indices of the vector entries (or () and (0,) for a single expression) that are angles, compared modulo 2 pi.
     tolerance : float
         Largest difference that still counts as equal, relative to the larger of 1 and the reference's size.
-    pinned : tuple of str
+    pinned : set of str
         Freedoms of the DHm convention that a right table may not use (see `chains.same_chain`).
     turn : float
         A full turn in the unit of the joint angles: 2 pi, or 360 where both answers are in degrees.
@@ -55,7 +55,7 @@ class Setting:
     points: Mapping[str, np.ndarray]
     angles: tuple[int, ...] = ()
     tolerance: float = 1e-6
-    pinned: tuple[str, ...] = ()
+    pinned: frozenset[str] = frozenset()
     turn: float = 2 * np.pi
 
 

@@ -10,6 +10,8 @@ from functools import cached_property
 import numpy as np
 from dhkit import public
 
+from .chains import SAME_MODEL
+
 Draw = Callable[[np.random.Generator], dict[str, float]]
 Step = Callable[[object], object]
 
@@ -70,7 +72,7 @@ class Question:
         Entries compared modulo 2 pi (vector entries or joints; ``(0,)`` for a single expression).
     tolerance : float
         Largest accepted difference, relative to the larger of 1 and the reference's size.
-    pinned : tuple of str
+    pinned : set of str
         Freedoms of the DHm convention that a right table may not use; the default leaves free what no
         statement fixes: the senses of the axes between base and tool, and origins along parallel axes.
     draw : callable, optional
@@ -87,7 +89,7 @@ class Question:
     partial: float = 0.5
     angles: tuple[int, ...] = ()
     tolerance: float = 1e-6
-    pinned: tuple[str, ...] = ("base frame", "tool frame", "zero of joint", "sense of joint")
+    pinned: frozenset[str] = SAME_MODEL
     draw: Draw | None = None
     probe: Callable[[np.random.Generator], list[list[float]]] | None = None
     group: Callable[..., str] = lambda *args: "the values tried"
