@@ -18,8 +18,8 @@ grade: setup
 
 # All tests, and every notebook executed.
 test: setup
-	$(BIN)/pytest
-	$(BIN)/pytest --nbmake course solutions exercises
+	$(BIN)/pytest -n auto --dist loadfile
+	$(BIN)/pytest -n auto --nbmake course solutions exercises
 
 # JupyterLab on the exercises.
 lab: setup
