@@ -260,7 +260,11 @@ class SandboxClient(NotebookClient):
             return CellRun("ok", "what it printed beyond the limit was left out" if progress.over else "", cell.outputs)
         name, value = as_text(reply.get("ename")), as_text(reply.get("evalue"))
         message = one_line(f"{name}: {value}" if value else name) or "the cell was not completed"
-        return CellRun("memory" if name in OUT_OF_MEMORY else "error", message, cell.outputs)
+        if name not in OUT_OF_MEMORY:
+            return CellRun("error", message, cell.outputs)
+        # A kernel that still holds what it filled its memory with has none left for the cells to come.
+        self.lost = self.provisioner.memory_held() > self.limits.memory // 2
+        return CellRun("memory", message, cell.outputs)
 
 
 def asks_to_exit(reply: dict[str, Any]) -> bool:

@@ -31,7 +31,7 @@ from traitlets import List as ListOf
 from . import bubblewrap
 from .limits import Limits
 from .relay import Relay, listening_sockets
-from .watch import MemoryWatch
+from .watch import MemoryWatch, memory_in_use
 from .workdir import read_folder
 
 BASE_BYTES = 78  # a socket's whole path may have 108, or 104 on macOS
@@ -178,6 +178,10 @@ class SandboxProvisioner(LocalProvisioner):
             **dict(zip(port_names, descriptors)),
         }
         return json.dumps(info).encode()
+
+    def memory_held(self) -> int:
+        """Bytes that the kernel and everything it started hold now."""
+        return memory_in_use(self.pid, bubblewrap.PRIVATE if self.sandboxed else ())
 
     def _too_much_memory(self) -> None:
         self.memory_exceeded = True

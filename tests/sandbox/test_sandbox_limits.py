@@ -49,6 +49,13 @@ def test_a_sandbox_above_its_memory_is_stopped_at_the_cost_of_one_cell(sandboxed
     assert printed(run, 2) == "3"
 
 
+def test_a_cell_that_keeps_all_memory_leaves_some_for_the_others(sandboxed, statuses, printed):
+    keep = "kept = []\nwhile True:\n    kept.append(b'x' * (8 << 20))"
+    run = sandboxed("x = 3", keep, "y = b'y' * (100 << 20)", "print(x)", limits=sandbox.Limits(memory=400 * MIB))
+    assert statuses(run) == ["ok", "memory", "ok", "ok"]
+    assert printed(run, 3) == "3"
+
+
 def test_files_in_memory_count(sandboxed, statuses):
     hoard = (
         "for i in range(40):\n    for place in ('/tmp', '/dev/shm'):\n"
