@@ -1,6 +1,6 @@
 """Writes the sample class: a course folder with the submissions of students who never were.
 
-python tests/sample_class/write.py FOLDER [--harmless]
+python tests/sample_class/write.py FOLDER [--short] [--harmless]
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ def _arguments(step: dict) -> dict:
     return {key: value for key, value in step.items() if key != "do"}
 
 
-def write_class(folder: Path, harmless: bool = False) -> list[Submission]:
+def write_class(folder: Path, harmless: bool = False, short: bool = False) -> list[Submission]:
     """Make `folder` a course with the sample class in it; an earlier sample class there is replaced.
 
     Parameters
@@ -80,6 +80,8 @@ def write_class(folder: Path, harmless: bool = False) -> list[Submission]:
         New, empty, or an earlier sample class. Grades and feedback that are there already stay.
     harmless : bool
         Leave out what could do harm on a machine without a sandbox.
+    short : bool
+        Write only right answers, named mistakes, and one submission of every other kind.
 
     Returns
     -------
@@ -104,6 +106,8 @@ def write_class(folder: Path, harmless: bool = False) -> list[Submission]:
         elif (REPOSITORY / name).is_file():
             shutil.copyfile(REPOSITORY / name, folder / name)
     chosen = [submission for submission in submissions() if not (harmless and submission.harmful)]
+    if short:
+        chosen = [one for one in chosen if one.stock or one.student.startswith(("right", "mistakes"))]
     sources = {exercise: solution(exercise) for exercise in {submission.exercise for submission in chosen}}
     for submission in chosen:
         place = folder / "submitted" / submission.student / submission.exercise
@@ -124,9 +128,10 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="Write the sample class: a course folder with submissions to grade.")
     parser.add_argument("folder", type=Path, help="new, empty, or an earlier sample class, which is replaced")
     parser.add_argument("--harmless", action="store_true", help="leave out what could do harm without a sandbox")
+    parser.add_argument("--short", action="store_true", help="write a third of the class: one submission of every kind")
     options = parser.parse_args()
     try:
-        written = write_class(options.folder, options.harmless)
+        written = write_class(options.folder, options.harmless, options.short)
     except NotOurs as reason:
         print(f"write.py: {reason}", file=sys.stderr)
         return 2
