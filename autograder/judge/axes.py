@@ -154,7 +154,7 @@ class _Values:
     def affine(self, entry: Expression) -> tuple[np.ndarray, np.ndarray] | None:
         """Coefficients (m,) of the joint variables and the constant (K,); None if `entry` is no such sum."""
         nothing = np.zeros(len(self.joints))
-        if isinstance(entry, Number) and isinstance(entry.value, float):
+        if isinstance(entry, Number) and isinstance(entry.value, float) and np.isfinite(entry.value):
             return nothing, np.array([entry.value])
         names = symbols(entry)
         if names.isdisjoint(self.joints):

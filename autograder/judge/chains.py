@@ -124,8 +124,10 @@ def same_chain(student: Chain, reference: Chain, *, pinned: Collection[str] = ()
     with np.errstate(all="ignore"):
         comparable, mismatch = _common_part(student, reference)
         if mismatch:
+            if not comparable:
+                return ChainMatch(False, parting=mismatch)
             cut = student.first(comparable), reference.first(comparable)
-            found = _best(*cut, pins.as_cost, tolerance) if comparable else None
+            found = _best(*cut, pins.as_cost, tolerance)
             return ChainMatch(False, parting=_parting(*cut, found, tolerance) if isinstance(found, Parted) else mismatch)
         found = _best(student, reference, pins.as_wall, tolerance)
         if isinstance(found, Parted) and pins.given:

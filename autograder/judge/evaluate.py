@@ -64,11 +64,12 @@ def _evaluate(expression: Expression, points: Mapping[str, np.ndarray]):
             return _NUMPY[function](*(_evaluate(arg, points) for arg in args))
 
 
-def _as_complex(value) -> complex:
+def _as_complex(value) -> np.complex128:
+    """As NumPy's number, which divides by zero without an exception."""
     try:
-        return complex(value)
+        return np.complex128(value)
     except OverflowError:
-        return complex(float("inf"))
+        return np.complex128(np.inf)
 
 
 def evaluate_exactly(expression: Expression, point: Mapping[str, float]) -> mpmath.mpc | None:
