@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from dhkit.forms import array_shape
 from dhkit.public import DH_COLUMNS, PublicQuestion
 
 from .chains import Chain, NotAChain, same_chain
@@ -88,18 +89,6 @@ def describe(value: object) -> str:
                 return "a list whose rows have different lengths"
             return "an empty list" if shape == (0,) else f"an array of shape {' x '.join(map(str, shape))}"
     return "an expression"
-
-
-def array_shape(value: object) -> tuple[int, ...] | None:
-    """Shape of a nested tuple, () for a scalar, None if it is ragged."""
-    if not isinstance(value, tuple):
-        return ()
-    shapes = {array_shape(item) for item in value}
-    if not shapes:
-        return (0,)
-    if len(shapes) > 1 or None in shapes:
-        return None
-    return (len(value), *shapes.pop())
 
 
 def _refuse(question: PublicQuestion, found: str) -> Malformed:

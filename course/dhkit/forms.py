@@ -49,8 +49,8 @@ def describe(node: object) -> str:
 
 
 def array_shape(node: object) -> tuple[int, ...] | None:
-    """Shape of a nested list, () for a scalar, None if it is ragged."""
-    if not isinstance(node, list):
+    """Shape of nested lists or tuples, () for a scalar, None if it is ragged."""
+    if not isinstance(node, (list, tuple)):
         return ()
     shapes = {array_shape(item) for item in node}
     if not shapes:
