@@ -19,9 +19,11 @@ ROWS = [[row.sigma, *row.parameters] for row in TABLE.rows] + [TOOL_ROW]
 TRANSFORMS = [row.transform() for row in map(DHRow, *zip(*ROWS, strict=True))]
 HAND = TABLE.symbolic_forward()
 MODEL = list(HAND[:2, 3])
-ELBOW_COSINE = (x**2 + y**2 - L1**2 - L2**2) / (2 * L1 * L2)
+DISTANCE_SQUARED = sympy.simplify(MODEL[0] ** 2 + MODEL[1] ** 2)
+ELBOW_COSINE = sympy.solve(DISTANCE_SQUARED - x**2 - y**2, sympy.cos(t2))[0]
+REACH = [sympy.sqrt(sympy.factor(DISTANCE_SQUARED.subs(sympy.cos(t2), cosine))) for cosine in (-1, 1)]
 DIRECTION = sympy.atan2(y, x)
-FOREARM = (L2 * sympy.sin(t2), L1 + L2 * sympy.cos(t2))  # the hand seen from link 1: to the left, ahead
+FOREARM = tuple(TABLE.recursion()[1][1::-1, 3])  # the hand seen from link 1: to the left, ahead
 
 LENGTHS = (0.5, 0.4)
 TARGET = (0.3, 0.6)
@@ -59,7 +61,7 @@ def consistent_point(rng: np.random.Generator) -> dict[str, float]:
     """A sample point for t1 as a function of x, y and t2: the three belong to one posture."""
     l1, l2 = rng.uniform(0.3, 1.2, 2)
     q1, q2 = rng.uniform(-np.pi, np.pi, 2)
-    px, py = l1 * np.cos(q1) + l2 * np.cos(q1 + q2), l1 * np.sin(q1) + l2 * np.sin(q1 + q2)
+    px, py = robots.planar_2r(l1, l2).forward([q1, q2])[:2, 3]
     return {"L1": l1, "L2": l2, "t2": q2, "x": px, "y": py}
 
 
@@ -304,7 +306,7 @@ QUESTIONS = (
     ),
     Question(
         "planar_2r.reach",
-        reference=lambda variant: [sympy.Abs(L1 - L2), L1 + L2],
+        reference=lambda variant: REACH,
         mistakes=(
             mistake(
                 "r_min_without_absolute_value",
