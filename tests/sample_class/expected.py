@@ -10,7 +10,7 @@ score     the points of the whole submission
 notes     question -> answer note, where it is not "right"; ``"*"`` stands for all questions not named
 remarks   words that the line of the class table must contain
 harmful   true if it could do harm, or learn the answers, on a machine without a sandbox
-stock     true if the comparison with stock nbgrader includes it
+stock     true if the comparison with stock nbgrader, and the short class, include it
 
 ``@COURSE@`` and ``@REPOSITORY@`` in a source stand for the two folders. Scores and notes are written by hand, from
 reading the questions: they judge the grader, so the grader must never write them.

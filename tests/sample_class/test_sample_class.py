@@ -1,0 +1,209 @@
+"""The sample class, graded once by our command and partly by stock nbgrader: exact scores, exact notes, no harm done."""
+
+import json
+import shutil
+import sqlite3
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+from dhkit.public import questions as public_questions
+from expected import HERE, submissions
+from write import REPOSITORY, write_class
+
+from autograder.questions import exercises
+from autograder.sandbox import available
+
+pytestmark = pytest.mark.xdist_group("sample_class")
+
+SANDBOX = available() is None
+CLASS = [submission for submission in submissions() if SANDBOX or not submission.harmful]
+# The limits of a lecturer in a hurry; what loops for ever is stopped sooner.
+LIMITS = {"cell_seconds": 10, "notebook_seconds": 100}
+CANARY = "canary-of-the-sample-class"
+FRAME_NOTES = {"right", "partly_right", "same_chain_other_frames", "nothing_matched", "not_attempted", "malformed", "no_answer", "unreadable",
+               "error", "timeout", "memory", "output_limit", "died", "not_run"}  # fmt: skip
+MADE_BY_GRADING = {"autograded", "feedback", "gradebook.db"}
+
+each_submission = pytest.mark.parametrize("submission", CLASS, ids=lambda one: f"{one.exercise}.{one.student}")
+
+
+def contents(folder, leave_out=()):
+    """Path -> bytes of every file below `folder`."""
+    files = (path for path in sorted(folder.rglob("*")) if path.relative_to(folder).parts[0] not in leave_out)
+    return {str(path.relative_to(folder)): path.read_bytes() for path in files if path.is_file()}
+
+
+def listing(*folders):
+    return {path for folder in folders for path in folder.rglob("*") if "__pycache__" not in path.parts}
+
+
+def run(course, *words):
+    """Run a program in the course folder; its output is shown when it fails."""
+    done = subprocess.run([sys.executable, *map(str, words)], cwd=course, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[-3000:]
+    return done.stdout
+
+
+@pytest.fixture(scope="session")
+def course(tmp_path_factory):
+    """The sample class, released and not yet graded."""
+    root = tmp_path_factory.mktemp("sample_class") / "course"
+    write_class(root, harmless=not SANDBOX)
+    run(root, "-m", "autograder.cli", "release")
+    return root
+
+
+@pytest.fixture(scope="session")
+def ungraded(course, tmp_path_factory):
+    """A copy of the part of the class that stock nbgrader grades, made before anything is graded."""
+    root = tmp_path_factory.mktemp("stock") / "course"
+    shutil.copytree(course, root)
+    chosen = {(one.student, one.exercise) for one in CLASS if one.stock}
+    for folder in root.glob("submitted/*/*"):
+        if (folder.parent.name, folder.name) not in chosen:
+            shutil.rmtree(folder)
+    return root
+
+
+@pytest.fixture(scope="session")
+def graded(course, ungraded, tmp_path_factory):
+    """What grading the whole class printed, cost and left behind."""
+    report = tmp_path_factory.mktemp("report") / "report.json"
+    ours = [REPOSITORY / name for name in ("solutions", "exercises", "course", "autograder")]
+    before = contents(course, MADE_BY_GRADING), listing(*ours)
+    limits = [word for name, value in LIMITS.items() for word in (f"--{name.replace('_', '-')}", str(value))]
+    mode = "bwrap" if SANDBOX else "none"
+    printed = run(course, HERE / "watched.py", report, "grade", "--json", "--jobs", "2", "--sandbox", mode, *limits)
+    lines = [json.loads(line) for line in printed.splitlines()]
+    return {
+        "lines": {(line["exercise"], line["student"]): line for line in lines},
+        "course": (before[0], contents(course, MADE_BY_GRADING)),
+        "made": {path.name for path in course.iterdir()},
+        "repository": (before[1], listing(*ours)),
+        **json.loads(report.read_text()),
+    }
+
+
+def test_every_submission_was_judged(graded):
+    assert graded["exit"] == 0
+    assert graded["lines"].keys() == {(one.exercise, one.student) for one in CLASS}
+    assert {line["status"] for line in graded["lines"].values()} == {"graded"}
+
+
+@each_submission
+def test_scores_and_notes_are_those_expected(submission, graded):
+    line = graded["lines"][submission.exercise, submission.student]
+    found = {answer["question"].partition(".")[2]: answer["note"] for answer in line["answers"]}
+    assert found == {name: submission.note(name) for name in found}
+    assert line["score"] == pytest.approx(submission.score, abs=1e-9)
+    assert line["max_score"] == 20
+    assert len(found) == len([id for id in public_questions() if id.startswith(f"{submission.exercise}.")])
+
+
+@each_submission
+def test_the_class_table_says_what_was_wrong(submission, graded):
+    found = graded["lines"][submission.exercise, submission.student]["found"]
+    assert [words for words in submission.remarks if words not in found] == [], found
+    assert found.isprintable()
+
+
+def test_no_process_of_a_student_lives(graded):
+    assert graded["left"] == []
+
+
+def test_the_grader_stays_small(graded):
+    assert graded["peak"] < 500 << 20
+
+
+def test_nothing_is_written_outside_the_work_folders(graded, course):
+    before, after = graded["course"]
+    assert after == before
+    assert graded["made"] == {Path(name).parts[0] for name in before} | MADE_BY_GRADING
+    assert graded["repository"][0] == graded["repository"][1]
+    reachable = [Path(place) for place in ("/", "/etc", "/usr/local", "/var/tmp", "/dev/shm", sys.prefix, Path.home())]
+    reachable += [course, REPOSITORY, REPOSITORY / "course" / "dhkit", Path(tempfile.gettempdir())]
+    assert [path for folder in reachable if folder.is_dir() for path in folder.iterdir() if CANARY in path.name] == []
+
+
+def test_work_folders_are_gone(graded):
+    assert [path for path in Path(tempfile.gettempdir()).glob("**/work/notes.txt")] == []
+
+
+# ---------------------------------------------------------------- the class covers what it should
+
+
+def test_every_named_mistake_is_made_by_somebody():
+    made = {(f"{one.exercise}.{question}", note) for one in submissions() for question, note in one.notes.items()}
+    trees = {(question.id, node.note) for questions in exercises().values() for question in questions for node in question.mistakes}
+    assert trees - made == set()
+
+
+def test_every_outcome_appears():
+    notes = {note for one in submissions() for note in ("right", *one.notes.values())}
+    assert notes >= FRAME_NOTES
+
+
+def test_expected_notes_exist():
+    """A note that no question can give would make a student pass for the wrong reason, or a typing error pass unseen."""
+    for one in submissions():
+        known = {q.id: {node.note for node in q.mistakes} | FRAME_NOTES for q in exercises()[one.exercise]}
+        for question, note in one.notes.items():
+            assert note in (FRAME_NOTES if question == "*" else known[f"{one.exercise}.{question}"]), (one.student, question)
+
+
+# ---------------------------------------------------------------- stock nbgrader
+
+ROWS = """
+select assignment.name, student.id, base_cell.name, {columns}
+from {table} join base_cell on {table}.cell_id = base_cell.id
+join submitted_notebook on {table}.notebook_id = submitted_notebook.id
+join submitted_assignment on submitted_notebook.assignment_id = submitted_assignment.id
+join assignment on submitted_assignment.assignment_id = assignment.id
+join student on submitted_assignment.student_id = student.id"""
+GRADES = ROWS.format(
+    table="grade",
+    columns="grade_cells.max_score, grade.auto_score, grade.manual_score, grade.extra_credit, grade.needs_manual_grade",
+).replace("join student", "join grade_cells on grade_cells.id = base_cell.id join student")
+COMMENTS = ROWS.format(table="comment", columns="comment.auto_comment, comment.manual_comment")
+
+
+def rows(course, query):
+    with sqlite3.connect(course / "gradebook.db") as connection:
+        found = sorted(connection.execute(query).fetchall(), key=str)
+    chosen = {(one.exercise, one.student) for one in CLASS if one.stock}
+    return [row for row in found if row[:2] in chosen]
+
+
+@pytest.fixture(scope="session")
+def stock(graded, ungraded):
+    """The chosen part of the class, graded by ``nbgrader autograde``."""
+    mode = "bwrap" if SANDBOX else "none"
+    options = [f"--SandboxExecute.{name}={value}" for name, value in {**LIMITS, "mode": mode}.items()]
+    for exercise in exercises():
+        run(ungraded, "-m", "nbgrader", "autograde", exercise, "--log-level=ERROR", *options)
+    return ungraded
+
+
+def test_the_part_for_stock_nbgrader_has_every_outcome():
+    notes = {note for one in submissions() if one.stock for note in ("right", *one.notes.values())}
+    assert notes >= FRAME_NOTES | {"sign_of_d2"}
+    assert {one.exercise for one in submissions() if one.stock} == set(exercises())
+
+
+@pytest.mark.parametrize("query", [GRADES, COMMENTS], ids=["grades", "comments"])
+def test_stock_nbgrader_keeps_the_same_gradebook(query, stock, course):
+    found = rows(course, query)
+    per_exercise = {name: len(questions) for name, questions in exercises().items()}
+    assert len(found) == sum(per_exercise[one.exercise] for one in CLASS if one.stock)
+    assert rows(stock, query) == found
+
+
+def test_stock_nbgrader_shows_the_same_feedback(stock, course):
+    for one in CLASS:
+        if one.stock:
+            pair = [json.loads((root / f"autograded/{one.student}/{one.exercise}/{one.exercise}.ipynb").read_text()) for root in (course, stock)]
+            judged = [[cell["outputs"] for cell in nb["cells"] if "autograder" in cell["metadata"]] for nb in pair]
+            assert judged[0] == judged[1]
