@@ -10,6 +10,7 @@ import sys
 import textwrap
 import time
 import zipfile
+from functools import partial
 
 import nbformat
 import psutil
@@ -276,7 +277,9 @@ def test_an_interrupt_leaves_a_gradebook_and_no_kernel(course_copy, small, relea
         )
     )
     words = ["grade", "scara", "--course", str(course_copy), "--jobs", "2"]
-    process = subprocess.Popen([sys.executable, str(driver), *words], stderr=subprocess.PIPE, text=True)
+    # A job in the background is started with Ctrl-C ignored, and hands that on: here it must be heard.
+    listen = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    process = subprocess.Popen([sys.executable, str(driver), *words], stderr=subprocess.PIPE, text=True, preexec_fn=listen)
     kernels = []
     deadline = time.monotonic() + 60
     while time.monotonic() < deadline and not (course_copy / "autograded/a right one/scara/scara.ipynb").exists():

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 
 import nbformat
 import pytest
@@ -202,7 +203,10 @@ except KeyboardInterrupt:
     (tmp_path / "work").mkdir()
     (tmp_path / "tmp").mkdir()
     process = subprocess.Popen(
-        [sys.executable, "-c", script, str(tmp_path / "work")], env={**os.environ, "TMPDIR": str(tmp_path / "tmp")}
+        [sys.executable, "-c", script, str(tmp_path / "work")],
+        env={**os.environ, "TMPDIR": str(tmp_path / "tmp")},
+        # A job in the background is started with Ctrl-C ignored, and hands that on: here it must be heard.
+        preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),
     )
     while not alive("sleep 72.4"):
         assert process.poll() is None
