@@ -1,0 +1,210 @@
+"""A student's result on the planar arm."""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.patches import Circle
+
+from .. import drawing
+from ..strokes import AXIS_COLOURS, INK, SOFT, in_degrees
+from .own_result import called, entries, numbers, own_result
+
+
+@own_result
+def show_on_planar_arm(answer, values: dict[str, float]):
+    """A point [x, y], or a hand frame, on the planar 2R arm in the posture given by `values`.
+
+    The cross belongs on the end of the arm.
+
+    Parameters
+    ----------
+    answer : 2 entries or a 4x4 matrix, SymPy or numbers
+    values : dict
+        Numbers for t1, t2 (radians), L1, L2 (metres).
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    lengths, q = (values["L1"], values["L2"]), (values["t1"], values["t2"])
+    if len(entries(answer)) == 2:
+        at, frame = numbers(answer, "model", (2,), values), None
+    else:
+        frame = numbers(answer, "transform", (4, 4), values)
+        at = frame[:2, 3]
+    ax = drawing.draw_planar_arm(lengths, q, hand="")
+    drawing.mark_target(ax, at, "your result")
+    if frame is not None:
+        drawing.mark_frame_2d(ax, frame, "E", 0.24 * sum(lengths))
+    return ax
+
+
+@own_result
+def show_postures(solutions, lengths, target, heading=None):
+    """Joint solutions of a planar 2R arm, or of a SCARA seen from above, with the point that they should reach.
+
+    Parameters
+    ----------
+    solutions : rows (t1, t2) or (t1, t2, d2, t4), in radians and metres
+    lengths : (float, float), in metres
+    target : (float, float), in metres
+    heading : float, in radians, optional
+        Wanted direction of the hand, for rows of four.
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    width = 2 if heading is None else 4
+    if len(entries(solutions)) == width:
+        solutions = [entries(solutions)]
+    rows = numbers(solutions, "solutions", (None, width), {}) if entries(solutions) else np.empty((0, width))
+    ax = drawing.draw_postures(lengths, rows[:, :2], target)
+    if heading is not None:
+        notes = [f"$d_2$ = {row[2]:.3f} m,  $t_4$ = {in_degrees(row[3])}" for row in rows]
+        hands = [row[0] + row[1] + row[3] for row in rows]
+        drawing.mark_hands(ax, lengths, rows[:, :2], hands, target, heading, notes)
+    if not len(rows):
+        ax.set_title("no solution given")
+    return ax
+
+
+@own_result
+def show_cos_theta2(expression, lengths):
+    """The cosine of the elbow angle against the distance of the target, with the range of a cosine.
+
+    Parameters
+    ----------
+    expression : SymPy expression in x, y, L1, L2
+    lengths : (float, float), in metres
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    l1, l2 = lengths
+    distance = np.linspace(0, 1.25 * (l1 + l2), 101)
+    values = [
+        numbers(expression, "cos(t2)", (), {"x": r * np.cos(0.7), "y": r * np.sin(0.7), "L1": l1, "L2": l2})
+        for r in distance
+    ]
+    ax = plt.subplots(figsize=(5.6, 3.4))[1]
+    ax.axhspan(-1, 1, color="#eeeeee", zorder=0)
+    ax.plot(distance, values, color=INK, lw=1.8)
+    for r, name in ((abs(l1 - l2), "$|L_1 - L_2|$"), (l1 + l2, "$L_1 + L_2$")):
+        ax.axvline(r, color=SOFT, lw=1, ls=(0, (5, 2)))
+        ax.annotate(name, (r, -2.75), xytext=(4, 0), textcoords="offset points", va="center")
+    ax.set(
+        xlabel="distance from base to target (m)",
+        ylabel=r"your $\cos\theta_2$",
+        ylim=(-3.2, 3.2),
+        xlim=(0, distance[-1]),
+    )
+    ax.annotate("a cosine lives here", (0, 0.6), xytext=(10, 0), textcoords="offset points", va="center")
+    return ax
+
+
+@own_result
+def show_theta1(expression, lengths, target):
+    """Both arms that a formula for t1 gives for one target, t2 being right.
+
+    Parameters
+    ----------
+    expression : SymPy expression in x, y, L1, L2, t2
+    lengths, target : (float, float), in metres
+        The target lies between the limits of reach.
+
+    Returns
+    -------
+    matplotlib Axes
+        Both arms end on the target when the formula is right.
+    """
+    (l1, l2), (x, y) = lengths, target
+    elbow = np.arccos((x**2 + y**2 - l1**2 - l2**2) / (2 * l1 * l2))
+    given = {"x": x, "y": y, "L1": l1, "L2": l2}
+    rows = [(float(numbers(expression, "t1", (), given | {"t2": t2})), t2) for t2 in (elbow, -elbow)]
+    return drawing.draw_postures(lengths, rows, target)
+
+
+@own_result
+def show_reach(limits, lengths):
+    """The circles [r_min, r_max] of an answer over points that the arm really reaches.
+
+    Parameters
+    ----------
+    limits : 2 entries in L1, L2
+    lengths : (float, float), in metres
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    inner, outer = numbers(limits, "reach", (2,), {"L1": lengths[0], "L2": lengths[1]})
+    random = np.random.default_rng(7)
+    t1, t2 = random.uniform(-np.pi, np.pi, (2, 2500))
+    x = lengths[0] * np.cos(t1) + lengths[1] * np.cos(t1 + t2)
+    y = lengths[0] * np.sin(t1) + lengths[1] * np.sin(t1 + t2)
+    ax = plt.subplots(figsize=(4.6, 4.6))[1]
+    ax.set_aspect("equal")
+    ax.plot(x, y, ".", ms=2.5, color=SOFT, label="random postures")
+    turn = np.linspace(0, 2 * np.pi, 200)
+    for radius, dashes, name in (
+        (outer, "-", "your $r_\\mathrm{max}$"),
+        (inner, (0, (5, 2)), "your $r_\\mathrm{min}$"),
+    ):
+        ax.plot(
+            radius * np.cos(turn), radius * np.sin(turn), color=INK, lw=1.8, ls=dashes, label=f"{name} = {radius:.2f} m"
+        )
+    ax.margins(0.06)
+    ax.set(xlabel="x (m)", ylabel="y (m)")
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, columnspacing=1.2, handlelength=1.6)
+    return ax
+
+
+@own_result
+def show_inverse(inverse, lengths):
+    """How many postures an inverse model returns over the plane, and where one of them misses its target.
+
+    Parameters
+    ----------
+    inverse : function (x, y, L1, L2) -> list of (t1, t2)
+    lengths : (float, float), in metres
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    l1, l2 = lengths
+    side = np.linspace(-1.15, 1.15, 21) * (l1 + l2)
+    grid = [(x, y) for x in side for y in side if np.hypot(x, y) > 1e-9]
+    turns = np.arange(12) * np.pi / 6 + 0.1
+    circles = [(r * np.cos(t), r * np.sin(t)) for r in (l1 + l2, abs(l1 - l2)) if r > 1e-9 for t in turns]
+    kinds = [_posture_count(inverse, x, y, lengths) for x, y in (*grid, *circles)]
+    points = np.array([*grid, *circles])
+    ax = plt.subplots(figsize=(5.0, 5.0))[1]
+    ax.set_aspect("equal")
+    marks = {
+        "0": (".", 4, SOFT), "1": ("D", 6, "white"), "2": ("o", 6, "#a9a9a9"), "more": ("s", 7, "#a9a9a9"),
+        "misses": ("x", 7, AXIS_COLOURS["x"]),
+    }  # fmt: skip
+    for kind, (marker, size, fill) in marks.items():
+        chosen = points[[found == kind for found in kinds]]
+        if len(chosen):
+            edge = fill if kind in ("0", "misses") else INK
+            name = "a solution misses" if kind == "misses" else f"{kind} posture{'s' * (kind != '1')}"
+            ax.plot(*chosen.T, marker, ms=size, mfc=fill, mec=edge, ls="none", label=name)
+    for radius, dashes in ((l1 + l2, "-"), (abs(l1 - l2), (0, (5, 2)))):
+        ax.add_patch(Circle((0, 0), radius, fill=False, ec=INK, lw=0.9, ls=dashes, zorder=1))
+    ax.set(xlabel="x (m)", ylabel="y (m)")
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=4, columnspacing=1.2, handletextpad=0.3)
+    return ax
+
+
+def _posture_count(inverse, x, y, lengths) -> str:
+    """ "0", "1", "2", "more", or "misses" if a returned posture does not reach (x, y)."""
+    answer = called(inverse, float(x), float(y), *lengths)
+    rows = numbers(answer, "inverse", (None, 2), {}) if len(answer) else []
+    if any(np.hypot(*(drawing.planar_points(lengths, row)[2] - (x, y))) > 1e-6 for row in rows):
+        return "misses"
+    return str(len(rows)) if len(rows) <= 2 else "more"
