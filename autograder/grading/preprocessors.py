@@ -78,7 +78,8 @@ class JudgeAnswers(NbGraderPreprocessor):
             return cell, resources
         evidence = resources["autograder"]["evidence"][grade_id(cell)]
         question = questions.find(question_id(grade_id(cell)))
-        verdict = judge(question, evidence, Variant(resources["nbgrader"]["student"]))
+        notebook = {question_id(check): found for check, found in resources["autograder"]["evidence"].items()}
+        verdict = judge(question, evidence, Variant(resources["nbgrader"]["student"]), notebook)
         earned = points(verdict.share, float(cell.metadata.nbgrader["points"]))
         cell.outputs = [
             new_output("display_data", data={"text/markdown": verdict.feedback, "text/plain": verdict.feedback}),

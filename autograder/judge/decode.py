@@ -99,6 +99,12 @@ def decode_answer(bundle: object, question: str) -> Value:
     return _Reader().value(_content(bundle, question, "answer"))
 
 
+def decode_student(bundle: object) -> str | None:
+    """The id that was typed in the notebook an answer came from, None if it has no numbers of its own."""
+    typed = bundle.get("student") if isinstance(bundle, dict) else None
+    return None if typed is None else _text(typed)
+
+
 def decode_probes(bundle: object, question: str, count: int) -> tuple[Value, ...]:
     """The `count` results inside a bundle of `dhkit.check.answer_probes`."""
     content = _content(bundle, question, "probes")
@@ -109,7 +115,7 @@ def decode_probes(bundle: object, question: str, count: int) -> tuple[Value, ...
 
 
 def _content(bundle: object, question: str, key: str) -> object:
-    if not isinstance(bundle, dict) or bundle.keys() != {"format", "question", key}:
+    if not isinstance(bundle, dict) or bundle.keys() - {"student"} != {"format", "question", key}:
         raise Malformed("the answer was not handed in by check()")
     if type(bundle["format"]) is not int or bundle["format"] != FORMAT:
         raise Malformed("the answer was written by another version of dhkit")

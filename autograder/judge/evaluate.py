@@ -111,3 +111,8 @@ def symbols(expression: Expression) -> frozenset[str]:
         case Call(_, args):
             return frozenset().union(*map(symbols, args))
     return frozenset()
+
+
+def size(expression: Expression) -> int:
+    """Number of nodes of `expression`."""
+    return 1 + sum(map(size, expression.args)) if isinstance(expression, Call) else 1

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from dhkit import public
+from dhkit import public, variants
 
 from .chains import SAME_MODEL
 
@@ -22,6 +22,10 @@ class Variant:
 
     student: str
 
+    def numbers(self, exercise: str) -> dict[str, float | str]:
+        """The student's own numbers for an exercise, as `dhkit.variants` derives them."""
+        return variants.numbers(exercise, self.student)
+
 
 @dataclass(frozen=True)
 class Mistake:
@@ -34,7 +38,8 @@ class Mistake:
     share : float
         Share of the points, 0 to 1.
     feedback : str
-        Markdown that names the mistake and points at the slide, without giving the answer.
+        Markdown that names the mistake and points at the slide, without giving the answer. ``{name}`` stands for
+        the student's own number of that name.
     steps : tuple of callable
         Each takes an answer and returns it with the mistake made, in one of its forms. Where two mistakes
         meet in one answer, the step of one is applied to what the step of the other returns.
@@ -55,6 +60,30 @@ def mistake(note: str, share: float, feedback: str, *steps: Step, turn: float = 
 
 
 @dataclass(frozen=True)
+class Family:
+    """Infinitely many joint solutions: some representatives of them. Every solution that reaches the target is right."""
+
+    solutions: object
+
+
+@dataclass(frozen=True)
+class Follow:
+    """An error that was made, and paid for, in an earlier question is forgiven in a later one.
+
+    Attributes
+    ----------
+    earlier : str
+        Id of the earlier question; its symbols are among those of the later one.
+    model : callable
+        What follows from the student's own earlier answer: takes its values at the N sample points, an array
+        (N, *shape), and returns the values of the answer that would be right then, (N, ...).
+    """
+
+    earlier: str
+    model: Callable[[np.ndarray], np.ndarray]
+
+
+@dataclass(frozen=True)
 class Question:
     """One question as the judge knows it. The form of the answer is in its public half.
 
@@ -63,7 +92,7 @@ class Question:
     id : str
         ``"<exercise>.<name>"``, as in the public half.
     reference : callable
-        Maps a `Variant` to the right answer: anything `dhkit.wire.encode` takes, or a function.
+        Maps a `Variant` to the right answer: anything `dhkit.wire.encode` takes, a function, or a `Family`.
     mistakes : tuple of Mistake
         Tried in order when the answer is not right; the first that matches decides.
     partial : float
@@ -71,16 +100,22 @@ class Question:
     angles : tuple of int
         Entries compared modulo 2 pi (vector entries or joints; ``(0,)`` for a single expression).
     tolerance : float
-        Largest accepted difference, relative to the larger of 1 and the reference's size.
+        Largest accepted difference, relative to the larger of 1 and the reference's size; metres for a point cloud.
     pinned : set of str
         Freedoms of the DHm convention that a right table may not use; the default leaves free what no
         statement fixes: the senses of the axes between base and tool, and origins along parallel axes.
     draw : callable, optional
         Draws one sample point for the symbols; the default draws angles and positive lengths independently.
     probe : callable, optional
-        Draws the argument lists sent to a student's function.
+        Draws the argument lists sent to a student's function; takes ``(rng)``, or ``(rng, variant)`` where they depend
+        on whose question it is.
     group : callable, optional
         Names the case an argument list belongs to; each case earns the same share.
+    misses : callable, optional
+        For joint solutions: ``misses(q, variant, *args)`` puts solutions q, (k, n), through the direct model and returns
+        how far they are from the target, (k,), in metres and radians. `args` are the arguments of a probed function.
+    follows : Follow, optional
+        The earlier question whose error is not counted a second time.
     """
 
     id: str
@@ -91,29 +126,37 @@ class Question:
     tolerance: float = 1e-6
     pinned: frozenset[str] = SAME_MODEL
     draw: Draw | None = None
-    probe: Callable[[np.random.Generator], list[list[float]]] | None = None
+    probe: Callable[..., list[list[float]]] | None = None
     group: Callable[..., str] = lambda *args: "the values tried"
+    misses: Callable[..., np.ndarray] | None = None
+    follows: Follow | None = None
 
     @cached_property
     def public(self) -> public.PublicQuestion:
         return public.find(self.id)
 
-    def points(self, count: int = 12) -> dict[str, np.ndarray]:
-        """Sample values of the symbols: one (count,) array per symbol, the same at every call."""
+    @property
+    def exercise(self) -> str:
+        return self.id.partition(".")[0]
+
+    @cached_property
+    def points(self) -> dict[str, np.ndarray]:
+        """Sample values of the symbols: one (12,) array per symbol, the same at every call."""
         rng = np.random.default_rng(_seed(self.id))
         draw = self.draw or (lambda rng: {name: _independent(name, rng) for name in self.public.symbols})
-        draws = [draw(rng) for _ in range(count)]
+        draws = [draw(rng) for _ in range(12)]
         return {name: np.array([point[name] for point in draws]) for name in self.public.symbols}
 
     def probes(self, variant: Variant, seed: int) -> list[list[float]] | None:
         """Argument lists for a function question (JSON-able), None for any other kind."""
         if self.probe is None:
             return None
-        return self.probe(np.random.default_rng([seed, _seed(f"{self.id} {variant.student}")]))
+        rng = np.random.default_rng([seed, _seed(f"{self.id} {variant.student}")])
+        return self.probe(rng, variant) if self.probe.__code__.co_argcount == 2 else self.probe(rng)
 
 
 def _independent(name: str, rng: np.random.Generator) -> float:
-    is_angle = name.startswith(("t", "alpha", "phi", "psi"))
+    is_angle = name.startswith(("t", "alpha", "beta", "gamma", "phi", "psi", "q", "omega"))
     return rng.uniform(-np.pi, np.pi) if is_angle else rng.uniform(0.2, 1.5)
 
 

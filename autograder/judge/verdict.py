@@ -3,19 +3,28 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import permutations, product
 
-from dhkit import wire
+import numpy as np
+from dhkit import public, wire
+from dhkit.variants import NOBODY
 
-from .decode import Blank, Failure, Function, Malformed, Value, decode_answer, decode_probes
-from .kinds import KINDS, Comparison, Kind, Setting, describe
-from .question import Question, Step, Variant
-
+from .decode import Blank, Failure, Function, Malformed, Value, decode_answer, decode_probes, decode_student
+from .kinds import KINDS, Comparison, Entries, Kind, Setting, describe
+from .question import Family, Mistake, Question, Step, Variant
 
 Matches = Callable[[tuple[Step, ...], float], bool]
+
+
+# What a wrong step may run into: a mistaken function fails where the student's does, some steps exclude each other.
+_IMPOSSIBLE = (ArithmeticError, AttributeError, IndexError, KeyError, TypeError, ValueError)
+
+FORGIVEN = (
+    "**Right for your own earlier answer.** What went wrong there has been counted there; from it you went on correctly."
+)
 
 
 @dataclass(frozen=True)
@@ -49,19 +58,39 @@ class Verdict:
     feedback: str
 
 
-def judge(question: Question, evidence: Evidence, variant: Variant) -> Verdict:
-    """The verdict on one question. Never raises on anything a student can send."""
+def judge(question: Question, evidence: Evidence, variant: Variant, earlier: Mapping[str, Evidence] | None = None) -> Verdict:
+    """The verdict on one question. Never raises on anything a student can send.
+
+    `earlier` holds the evidence of the same notebook's questions by id: an error made there is not counted here again.
+    """
     if evidence.bundle is None:
         return _nothing_came(evidence)
     try:
         value = decode_answer(evidence.bundle, question.id)
-        if question.public.kind == "function":
-            return _judge_function(question, evidence, value, variant)
-        if _is_blank(value):
+        typed = decode_student(evidence.bundle)
+        if question.public.kind != "function" and _is_blank(value):
             return _not_attempted(evidence)
-        return _judge_value(question, value, variant)
+        found = _judged(question, evidence, value, variant, earlier or {})
+        if found.share < 1 and typed is not None and typed != variant.student:
+            return _of_another(question, evidence, value, typed) or found
+        return found
     except Malformed as fault:
         return Verdict(0.0, "malformed", f"**Not in the form asked for.** {plain(str(fault))}.")
+
+
+def _judged(question: Question, evidence: Evidence, value: Value, variant: Variant, earlier: Mapping[str, Evidence]) -> Verdict:
+    if question.public.kind == "function":
+        return _judge_function(question, evidence, value, variant)
+    return _judge_value(question, value, variant, earlier)
+
+
+def _of_another(question: Question, evidence: Evidence, value: Value, typed: str) -> Verdict | None:
+    """The verdict where the answer is right for the numbers of the id that was typed, which is not the student's own."""
+    if _judged(question, evidence, value, Variant(typed), {}).note != "right":
+        return None
+    whose = "nobody: no id was typed at the top of the notebook" if typed == NOBODY else f"the id {plain(typed)}"
+    feedback = f"**Right, but for the numbers of another student**: for those of {whose}. Type your own id at the top, and answer with your numbers."
+    return Verdict(0.0, "numbers_of_another_student", feedback)
 
 
 def plain(text: str) -> str:
@@ -100,15 +129,38 @@ def _is_blank(value: Value) -> bool:
     return isinstance(value, Blank)
 
 
-def _judge_value(question: Question, value: Value, variant: Variant) -> Verdict:
+def _judge_value(question: Question, value: Value, variant: Variant, earlier: Mapping[str, Evidence]) -> Verdict:
     kind, form = KINDS[question.public.kind], question.public
     student = kind.read(form, value)
-    setting = _setting(question)
+    setting = _setting(question, variant)
 
     def compare(steps: tuple[Step, ...], turn: float) -> Comparison:
-        return kind.compare(form, student, _own(question, steps, variant), replace(setting, turn=turn))
+        other, family = _own(question, steps, variant)
+        unit = replace(setting, turn=turn, family=family and not steps, patient=not steps)
+        return kind.compare(form, student, other, unit)
 
-    return _walk(question, compare((), setting.turn), lambda steps, turn: compare(steps, turn).equal)
+    against_reference = compare((), setting.turn)
+    if not against_reference.equal and _follows(question, student, setting, earlier):
+        return Verdict(1.0, "right_from_earlier", FORGIVEN)
+    return _walk(question, variant, against_reference, lambda steps, turn: compare(steps, turn).equal)
+
+
+def _follows(question: Question, student: object, setting: Setting, earlier: Mapping[str, Evidence]) -> bool:
+    """Whether the answer is what follows from the student's own answer to the earlier question."""
+    if question.follows is None or question.follows.earlier not in earlier:
+        return False
+    before = public.find(question.follows.earlier)
+    try:
+        answer = KINDS[before.kind].read(before, decode_answer(earlier[before.id].bundle, before.id))
+    except Malformed:
+        return False
+    values = answer.values(question.points)
+    if not np.isfinite(values).all():
+        return False
+    with np.errstate(all="ignore"):
+        expected = np.asarray(question.follows.model(values.reshape(len(values), *before.shape)), complex)
+    following = Entries(known=expected.reshape(len(values), -1))
+    return KINDS[question.public.kind].compare(question.public, student, following, setting).equal
 
 
 def _judge_function(question: Question, evidence: Evidence, value: Value, variant: Variant) -> Verdict:
@@ -125,26 +177,53 @@ def _judge_function(question: Question, evidence: Evidence, value: Value, varian
     if all(isinstance(result, Failure) for result in results):
         return Verdict(0.0, "error", f"{_TROUBLE['error']} {plain(results[0].message)}")
     form = question.public.returns
-    kind, setting = KINDS[form.kind], _setting(question)
+    kind = KINDS[form.kind]
     students = [_read_or_complaint(kind, form, result) for result in results]
     if all(isinstance(student, Malformed) for student in students):
         raise students[0]
+    probes = list(zip(arguments, students, strict=True))
 
-    def rights(steps: tuple[Step, ...], turn: float) -> Iterator[bool]:
-        unit, function = replace(setting, turn=turn), _taken(steps, question.reference(variant))
-        for args, student in zip(arguments, students, strict=True):
-            other = _read_or_complaint(kind, form, _decoded(form, function(*args)))
-            unusable = [isinstance(answer, Malformed) for answer in (student, other)]
-            yield all(unusable) or (not any(unusable) and kind.compare(form, student, other, unit).equal)
+    def compare(steps: tuple[Step, ...], turn: float, args: list, student: object) -> Comparison:
+        other, family = _returned(question, steps, variant, args)
+        if isinstance(student, Malformed) or isinstance(other, Malformed):
+            return Comparison(isinstance(student, Malformed) and isinstance(other, Malformed), 0.0)
+        setting = _setting(question, variant, args)
+        return kind.compare(form, student, other, replace(setting, turn=turn, family=family and not steps))
 
-    cases: dict[str, list[bool]] = {}
-    for args, right in zip(arguments, rights((), setting.turn), strict=True):
-        cases.setdefault(question.group(*args), []).append(right)
-    wrong = tuple(f"wrong for {case}" for case, right in cases.items() if not all(right))
-    return _walk(question, Comparison(not wrong, 1 - len(wrong) / len(cases), wrong), lambda *mistaken: all(rights(*mistaken)))
+    cases: dict[str, list[Comparison]] = {}
+    for args, student in probes:
+        cases.setdefault(question.group(*args), []).append(compare((), 2 * np.pi, args, student))
+    wrong = tuple(_wrong_case(case, found) for case, found in cases.items() if not all(one.equal for one in found))
+    return _walk(
+        question,
+        variant,
+        Comparison(not wrong, 1 - len(wrong) / len(cases), wrong),
+        lambda steps, turn: all(compare(steps, turn, *probe).equal for probe in probes),
+    )
 
 
-def _walk(question: Question, against_reference: Comparison, matches: Matches) -> Verdict:
+def _wrong_case(case: str, found: list[Comparison]) -> str:
+    """Which case is wrong, and by what at the first argument list that shows it."""
+    said = next((one.remarks[-1] for one in found if not one.equal and one.remarks), "")
+    return f"wrong for {case}" + (f" ({said})" if said else "")
+
+
+def _returned(question: Question, steps: tuple[Step, ...], variant: Variant, args: list) -> tuple[object, bool]:
+    """What the reference, or a mistaken function, returns for `args`, read as a student's answer is."""
+    form = question.public.returns
+    try:
+        answer, family = _unwrapped(_function(question, steps, variant)(*args))
+    except _IMPOSSIBLE as error:
+        return Malformed(f"no value: {error}"), False
+    return _read_or_complaint(KINDS[form.kind], form, _decoded(form, answer)), family
+
+
+@lru_cache(maxsize=4096)
+def _function(question: Question, steps: tuple[Step, ...], variant: Variant) -> Callable:
+    return _taken(steps, question.reference(variant))
+
+
+def _walk(question: Question, variant: Variant, against_reference: Comparison, matches: Matches) -> Verdict:
     """The response tree: right, then each mistake, then two mistakes at once, then the parts that are right.
 
     `matches` tells whether the student's answer is the reference after the given wrong steps, angles modulo a turn.
@@ -152,37 +231,50 @@ def _walk(question: Question, against_reference: Comparison, matches: Matches) -
     if against_reference.equal:
         used = ", ".join(against_reference.remarks)
         return Verdict(1.0, "right", "**Right.**" + (f" The same chain as ours, with {used}." if used else ""))
+    told = partial(_feedback, question, variant)
     for node in question.mistakes:
-        if any(matches((step,), node.turn) for step in node.steps):
-            return Verdict(node.share, node.note, node.feedback)
+        if any(_possible(matches, (step,), node.turn) for step in node.steps):
+            return Verdict(node.share, node.note, told(node))
     for first, second in permutations(question.mistakes, 2):
         turn = max(first.turn, second.turn)
         if any(_possible(matches, steps, turn) for steps in product(first.steps, second.steps)):
             note = "+".join(sorted((first.note, second.note)))
-            return Verdict(first.share * second.share, note, f"{first.feedback}\n\n{second.feedback}")
+            return Verdict(first.share * second.share, note, f"{told(first)}\n\n{told(second)}")
     share = min(question.partial, against_reference.share)
     what = "; ".join(against_reference.remarks) or "the answer differs from the right one"
     note = against_reference.note or ("partly_right" if share > 0 else "nothing_matched")
     return Verdict(share, note, f"**{'Partly right' if share > 0 else 'Not right'}.** {what[0].upper()}{what[1:]}.")
 
 
+def _feedback(question: Question, variant: Variant, node: Mistake) -> str:
+    """The feedback of a mistake with the student's own numbers in it."""
+    numbers = variant.numbers(question.exercise)
+    return re.sub(r"\{(\w+)\}", lambda found: f"{numbers[found[1]]}" if found[1] in numbers else found[0], node.feedback)
+
+
 def _possible(matches: Matches, steps: tuple[Step, ...], turn: float) -> bool:
-    """`matches`, but False where the second step cannot be taken after the first."""
+    """`matches`, but False where a step cannot be taken: after another one, or with this student's numbers."""
     try:
         return matches(steps, turn)
-    except (ArithmeticError, IndexError, TypeError, ValueError):
+    except _IMPOSSIBLE:
         return False
 
 
-def _setting(question: Question) -> Setting:
-    return Setting(question.points(), question.angles, question.tolerance, question.pinned)
+def _setting(question: Question, variant: Variant, args: list | tuple = ()) -> Setting:
+    misses = question.misses and (lambda q: question.misses(q, variant, *args))
+    return Setting(question.points, question.angles, question.tolerance, question.pinned, misses=misses)
 
 
-@lru_cache(maxsize=4096)
-def _own(question: Question, steps: tuple[Step, ...], variant: Variant) -> object:
-    """The reference after wrong steps, taken through the same wire and reader as a student's answer."""
-    answer = _taken(steps, question.reference(variant))
-    return KINDS[question.public.kind].read(question.public, _decoded(question.public, answer))
+@lru_cache(maxsize=16384)
+def _own(question: Question, steps: tuple[Step, ...], variant: Variant) -> tuple[object, bool]:
+    """The reference after wrong steps, taken through the same wire and reader as a student's answer; whether it is a family."""
+    answer, family = _unwrapped(question.reference(variant))
+    answer = _taken(steps, answer)
+    return KINDS[question.public.kind].read(question.public, _decoded(question.public, answer)), family
+
+
+def _unwrapped(answer: object) -> tuple[object, bool]:
+    return (answer.solutions, True) if isinstance(answer, Family) else (answer, False)
 
 
 def _taken(steps: tuple[Step, ...], answer: object) -> object:

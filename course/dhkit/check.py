@@ -7,9 +7,10 @@ runs the question's public checks, and leaves the encoded answer in the notebook
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 
-from . import public, wire
-from .forms import blanks, complaint, is_blank
+from . import public, variants, wire
+from .forms import blanks, complaint, is_blank, names_of
 from .public_checks import run_public_check
 from .report import Line, Report, show
 
@@ -36,7 +37,9 @@ def check(id: str, answer=...) -> None:
     node = wire.encode(answer)
     if question.kind == "function" and callable(answer):
         _functions[id] = answer
-    show(_report(question, node, answer), {wire.MIME: wire.bundle(id, answer=node)})
+    student = variants.typed(question.exercise)
+    whose = {} if student is None else {"student": wire.encode(student)}
+    show(_report(question, node, answer), {wire.MIME: wire.bundle(id, answer=node, **whose)})
 
 
 def hint(id: str, level: int = 1) -> None:
@@ -75,6 +78,15 @@ def answer_probes(id: str, arguments: str) -> None:
     show(Report("", "", ()), {wire.MIME: wire.bundle(id, probes=answers)})
 
 
+def _in_order(question: public.PublicQuestion, answer):
+    """An answer keyed by names as a list in the order asked for, for the public checks; anything else as it is."""
+    if isinstance(answer, Mapping):
+        return [answer[name] for name in names_of(question)]
+    if isinstance(answer, (list, tuple)):
+        return [_in_order(question, row) if isinstance(row, Mapping) else row for row in answer]
+    return answer
+
+
 def _report(question: public.PublicQuestion, node: object, answer) -> Report:
     if is_blank(node):
         return Report(question.title, "not attempted yet", ())
@@ -84,7 +96,7 @@ def _report(question: public.PublicQuestion, node: object, answer) -> Report:
     if blanks(node):
         return Report(question.title, "partly attempted", (Line(False, f"{blanks(node)} entries are still ..."),))
     lines = [Line(True, f"the form is right: {question.expected}")]
-    lines += [run_public_check(question, spec, answer) for spec in question.public]
+    lines += [run_public_check(question, spec, _in_order(question, answer)) for spec in question.public]
     if question.kind == "function" and any(line.blank for line in lines):
         return Report(question.title, "not attempted yet", ())
     missed = sum(line.holds is False for line in lines)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from .public import PublicQuestion
+from collections.abc import Sequence
+
+from .public import DH_COLUMNS, PublicQuestion
 
 
 def is_blank(node: object) -> bool:
@@ -21,6 +23,7 @@ def blanks(node: object) -> int:
 
 def complaint(question: PublicQuestion, node: object) -> str | None:
     """One sentence on what is wrong with the form of `node`, or None."""
+    node = without_keys(question, node)
     found = _wrong_form(question, node)
     if found is None:
         found = _foreign_part(question, node)
@@ -44,7 +47,8 @@ def describe(node: object) -> str:
     if kind == "unknown":
         return f"an object of type {node[kind]}"
     if kind == "dict":
-        return "a dictionary"
+        keys = ", ".join(str(key)[:20] for key, _ in node[kind][:6])
+        return f"a dictionary with the keys {keys}" if keys else "an empty dictionary"
     return {"function": "a function", "blank": "no answer"}.get(kind, "an expression")
 
 
@@ -60,6 +64,27 @@ def array_shape(node: object) -> tuple[int, ...] | None:
     return (len(node), *shapes.pop())
 
 
+def in_order(node: object, names: Sequence[str]) -> object:
+    """A dictionary with exactly the keys `names` as a list in their order; anything else as it is."""
+    items = node.get("dict") if isinstance(node, dict) else None
+    if not items or sorted(key for key, _ in items) != sorted(names):
+        return node
+    found = dict(items)
+    return [found[name] for name in names]
+
+
+def names_of(question: PublicQuestion) -> Sequence[str]:
+    """The keys that a dictionary in the answer may have."""
+    return {"dh_table": DH_COLUMNS, "joint_solutions": question.joints}.get(question.kind, question.names)
+
+
+def without_keys(question: PublicQuestion, node: object) -> object:
+    """`node` with dictionaries keyed by names of joints, columns or entries brought into the order asked for."""
+    names = names_of(question)
+    node = in_order(node, names)
+    return [in_order(row, names) for row in node] if isinstance(node, list) else node
+
+
 def _wrong_form(question: PublicQuestion, node: object) -> str | None:
     kind, shape = question.kind, array_shape(node)
     if kind == "function":
@@ -70,12 +95,14 @@ def _wrong_form(question: PublicQuestion, node: object) -> str | None:
             return f"{node[:20]!r}, which is none of {', '.join(question.options)}"
     elif kind in ("number", "expression"):
         fits = shape == () and not isinstance(node, str)
-    elif kind == "vector":
+    elif kind in ("vector", "direction", "orientation"):
         count = question.shape[0]
         fits = shape in ((count,), (count, 1), (1, count))
     elif kind == "joint_solutions":
         count = len(question.joints)
         fits = shape == (0,) or (shape is not None and shape[-1:] == (count,) and len(shape) in (1, 2))
+    elif kind == "points":
+        fits = shape is not None and len(shape) == 2 and shape[1:] == question.shape
     else:
         fits = shape == question.shape
     return None if fits else describe(node)

@@ -1,6 +1,7 @@
 """The public half of every question: what is asked, in which form, with which hints.
 
-The data lie in ``dhkit/questions/<exercise>.toml``, one table per question, and hold no answer.
+The data lie in ``dhkit/questions/<exercise>.toml``, one table per question, and hold no answer. The table
+``[variant]`` is no question: it says which numbers are the student's own (see `dhkit.variants`).
 """
 
 from __future__ import annotations
@@ -15,13 +16,18 @@ KINDS = (
     "number",
     "expression",
     "vector",
+    "direction",
     "matrix",
     "transform",
     "dh_table",
     "joint_solutions",
+    "orientation",
+    "points",
     "function",
     "choice",
 )
+
+VARIANT = "variant"
 
 DH_COLUMNS = ("sigma", "a", "alpha", "d", "theta")
 
@@ -44,6 +50,11 @@ class PublicQuestion:
         Names of the symbols the answer may contain; empty for a numeric answer.
     joints : tuple of str
         Names and order of the joint variables (kinds ``dh_table`` and ``joint_solutions``).
+    names : tuple of str
+        Names of the entries of a vector or an orientation: the answer may then be a dictionary, too.
+    axes, frames : str
+        Kind ``orientation``: letters of the three axes in the order of the angles, for example ``"zyx"``, and whether
+        they are axes of the ``"moving"`` or of the ``"fixed"`` frame.
     options : tuple of str
         Letters of a choice.
     returns : PublicQuestion or None
@@ -52,6 +63,8 @@ class PublicQuestion:
         Checks run in the student's own session.
     hints : tuple of str
         Hints, from the lightest to the strongest.
+    minutes : int
+        Expected time, in minutes, for a student who has followed the lecture.
     """
 
     id: str
@@ -62,10 +75,14 @@ class PublicQuestion:
     shape: tuple[int, ...] = ()
     symbols: tuple[str, ...] = ()
     joints: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
+    axes: str = ""
+    frames: str = "moving"
     options: tuple[str, ...] = ()
     returns: PublicQuestion | None = None
     public: tuple[dict, ...] = field(default=(), repr=False)
     hints: tuple[str, ...] = field(default=(), repr=False)
+    minutes: int = 0
 
     @property
     def exercise(self) -> str:
@@ -89,16 +106,35 @@ def _question(id: str, table: dict) -> PublicQuestion:
 
 
 @lru_cache(maxsize=None)
+def _files() -> dict[str, dict]:
+    """The tables of every exercise, by its name."""
+    files = sorted(resources.files("dhkit.questions").iterdir(), key=lambda file: file.name)
+    texts = {file.name.removesuffix(".toml"): file.read_text(encoding="utf-8") for file in files if file.name.endswith(".toml")}
+    return {exercise: tomllib.loads(text) for exercise, text in texts.items()}
+
+
+@lru_cache(maxsize=None)
 def questions() -> dict[str, PublicQuestion]:
     """All questions by id, in the order of their files."""
-    found = {}
-    folder = resources.files("dhkit.questions")
-    for file in sorted(folder.iterdir(), key=lambda file: file.name):
-        if file.name.endswith(".toml"):
-            exercise = file.name.removesuffix(".toml")
-            for name, table in tomllib.loads(file.read_text(encoding="utf-8")).items():
-                found[f"{exercise}.{name}"] = _question(f"{exercise}.{name}", table)
-    return found
+    return {
+        f"{exercise}.{name}": _question(f"{exercise}.{name}", table)
+        for exercise, tables in _files().items()
+        for name, table in tables.items()
+        if name != VARIANT
+    }
+
+
+def variant_ranges(exercise: str) -> dict[str, tuple]:
+    """What differs from student to student in `exercise`: by name, ``(lowest, highest, step)`` or the texts to pick from.
+
+    Raises ValueError if a range makes no sense; it names the entry.
+    """
+    ranges = {name: tuple(value) for name, value in _files().get(exercise, {}).get(VARIANT, {}).items()}
+    for name, range_ in ranges.items():
+        texts = bool(range_) and all(isinstance(value, str) for value in range_)
+        if not texts and not (len(range_) == 3 and range_[0] < range_[1] and range_[2] > 0):
+            raise ValueError(f"{exercise}.toml: {VARIANT}.{name} is neither [lowest, highest, step] nor a list of texts")
+    return ranges
 
 
 def find(id: str) -> PublicQuestion:

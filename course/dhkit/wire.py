@@ -47,7 +47,7 @@ _CONSTANTS = {sympy.pi: "pi", sympy.E: "E", sympy.I: "I"}
 
 
 def bundle(question: str, **content) -> dict:
-    """The JSON object displayed under `MIME` for one question."""
+    """The JSON object displayed under `MIME` for one question: ``answer`` or ``probes``, and perhaps the ``student`` typed."""
     return {"format": FORMAT, "question": question, **content}
 
 

@@ -38,6 +38,12 @@ def released(nb: Notebook) -> Notebook:
     return _each_source(nb, stub)
 
 
+def signed(nb: Notebook, student: str) -> Notebook:
+    """The notebook with the student's id typed in, where the exercise asks for it."""
+    blank = "student = ..."
+    return _each_source(nb, lambda line: [line.replace(blank, f"student = {student!r}", 1) if line.startswith(blank) else line])
+
+
 def answer(nb: Notebook, source: Notebook, cell: str, code: str) -> Notebook:
     """Answer as a student does: `code` takes the place of the stub, or of the whole cell where that is a function."""
     stub = released(source)["cells"][position(source, cell)]["source"]

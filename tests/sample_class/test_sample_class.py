@@ -23,7 +23,7 @@ CLASS = [submission for submission in submissions() if SANDBOX or not submission
 # The limits of a lecturer in a hurry; what loops for ever is stopped sooner.
 LIMITS = {"cell_seconds": 10, "notebook_seconds": 100}
 CANARY = "canary-of-the-sample-class"
-FRAME_NOTES = {"right", "partly_right", "same_chain_other_frames", "nothing_matched", "not_attempted", "malformed", "no_answer", "unreadable",
+FRAME_NOTES = {"right", "partly_right", "same_chain_other_frames", "one_cell", "right_from_earlier", "numbers_of_another_student", "nothing_matched", "not_attempted", "malformed", "no_answer", "unreadable",
                "error", "timeout", "memory", "output_limit", "died", "not_run"}  # fmt: skip
 MADE_BY_GRADING = {"autograded", "feedback", "gradebook.db"}
 

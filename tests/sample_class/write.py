@@ -11,7 +11,7 @@ import shutil
 import sys
 from pathlib import Path
 
-from edits import FILE_EDITS, NOTEBOOK_EDITS, Files, Notebook, answer, as_file, position, released, solved
+from edits import FILE_EDITS, NOTEBOOK_EDITS, Files, Notebook, answer, as_file, position, released, signed, solved
 from expected import HERE, Submission, submissions
 
 REPOSITORY = HERE.parents[1]
@@ -31,7 +31,7 @@ def solution(exercise: str) -> Notebook:
 def hand_in(submission: Submission, source: Notebook, course: Path = Path("/course")) -> Files:
     """The files a student hands in, made from the instructor's notebook `source` by the submission's edits."""
     name = f"{submission.exercise}.ipynb"
-    nb = _answered(submission, source)
+    nb = signed(_answered(submission, source), submission.student)
     for question, code in submission.answers.items():
         nb = answer(nb, source, f"{submission.exercise}-{question}-answer", _placed(code, course))
     steps = [{key: _placed(value, course) for key, value in edit.items()} for edit in submission.edits]

@@ -1,0 +1,53 @@
+"""DHm tables: right when they describe the same chain, within the freedoms that the question leaves."""
+
+from __future__ import annotations
+
+from dhkit.forms import array_shape
+from dhkit.public import DH_COLUMNS, PublicQuestion
+
+from ..chains import Chain, NotAChain, same_chain
+from .base import Comparison, Setting, describe, in_order, refuse
+from .entries import Entries, agreement, checked, flat
+
+WIDTH = len(DH_COLUMNS)
+
+
+def read_table(question: PublicQuestion, value: object) -> Entries:
+    """Rows as lists in the order of the columns, or as dictionaries keyed by their names."""
+    if isinstance(value, tuple):
+        value = tuple(in_order(row, DH_COLUMNS) for row in value)
+    if array_shape(value) != question.shape:
+        raise refuse(question, describe(value))
+    return checked(question, flat(value))
+
+
+def compare_table(question: PublicQuestion, student: Entries, other: Entries, setting: Setting) -> Comparison:
+    """Two tables are equal when they describe the same chain without using a freedom that the question pins."""
+    cells = _compare_cells(student, other, setting)
+    if cells.equal:
+        return cells
+    try:
+        mine, theirs = (Chain.of_entries(entries.expressions, question.joints, setting.points) for entries in (student, other))
+        match = same_chain(mine, theirs, pinned=setting.pinned)
+    except NotAChain:
+        return cells
+    if match.equal:
+        return Comparison(True, 1.0, tuple(f"another {used}" for used in match.freedoms))
+    if match.parting:
+        where = f"joint {match.parting.joint}: {match.parting.quantity} differs"
+        remarks = cells.remarks if cells.note else (where,)
+        return Comparison(False, cells.share, remarks, cells.note)
+    return Comparison(False, 1.0, match.remarks, "same_chain_other_frames")
+
+
+def _compare_cells(student: Entries, other: Entries, setting: Setting) -> Comparison:
+    is_angle = [name in ("alpha", "theta") for name in DH_COLUMNS] * (len(student.expressions) // WIDTH)
+    agree = agreement(student, other, setting, is_angle).reshape(-1, WIDTH)
+    remarks = tuple(
+        f"row {i + 1}: {', '.join(name for name, same in zip(DH_COLUMNS, row, strict=True) if not same)}"
+        for i, row in enumerate(agree)
+        if not row.all()
+    )
+    if (~agree).sum() == 1:
+        remarks = (f"only one cell differs, {remarks[0].replace(':', ', column')}",)
+    return Comparison(bool(agree.all()), float(agree.all(axis=1).mean()), remarks, "one_cell" if (~agree).sum() == 1 else "")

@@ -1,0 +1,77 @@
+"""Every student's own numbers: lengths, targets, postures, derived in the open from the student's id.
+
+The ranges stand in the table ``[variant]`` of ``dhkit/questions/<exercise>.toml``. The grader takes the id from its
+gradebook and derives the same numbers, on any machine: a text is hashed (SHA-256), nothing is drawn.
+"""
+
+from __future__ import annotations
+
+import hashlib
+
+from .public import variant_ranges
+
+NOBODY = "nobody"
+
+_typed: dict[str, str] = {}
+
+
+def numbers(exercise: str, student: str) -> dict[str, float | str]:
+    """The numbers of `student` for `exercise`, by name; empty if the exercise is the same for everybody.
+
+    A range ``[lowest, highest, step]`` gives ``lowest + k * step``, a list of texts gives one of them; k, counted from
+    0, is the SHA-256 of "<exercise> <name> <student>" modulo the number of values.
+    """
+    return {name: _pick(range_, f"{exercise} {name} {student.strip()}") for name, range_ in variant_ranges(exercise).items()}
+
+
+def _pick(range_: tuple, text: str) -> float | str:
+    chance = int.from_bytes(hashlib.sha256(text.encode()).digest()[:8])
+    if isinstance(range_[0], str):
+        return range_[chance % len(range_)]
+    lowest, highest, step = range_
+    return round(lowest + chance % (round((highest - lowest) / step) + 1) * step, 9)
+
+
+class OwnNumbers(dict):
+    """Numbers by name: ``mine["L1"]`` or ``mine.L1``."""
+
+    student: str
+
+    def __getattr__(self, name: str) -> float | str:
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(f"there is no number {name!r}; there are {', '.join(self)}") from None
+
+    def _repr_markdown_(self) -> str:
+        whose = f"Numbers of **{self.student}**" if self.student != NOBODY else "**Nobody's numbers: type your id above**"
+        return f"{whose}: " + ", ".join(f"{name} = {value}" for name, value in self.items())
+
+
+def variant(exercise: str, student=...) -> OwnNumbers:
+    """Your own numbers for `exercise`.
+
+    Parameters
+    ----------
+    exercise : str
+    student : str
+        Your id, as in the list of the course. ``...`` gives numbers to look around with, which are nobody's.
+
+    Raises
+    ------
+    ValueError
+        If `student` is no text.
+    """
+    if student is ... or student == "":
+        student = NOBODY
+    if not isinstance(student, str):
+        raise ValueError(f'your id is a text, for example "ada"; found {student!r}')
+    mine = OwnNumbers(numbers(exercise, student))
+    mine.__dict__["student"] = student.strip()
+    _typed[exercise] = mine.student
+    return mine
+
+
+def typed(exercise: str) -> str | None:
+    """The id that was typed in this session for `exercise`, None if no numbers were asked for."""
+    return _typed.get(exercise)
