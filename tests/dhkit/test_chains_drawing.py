@@ -141,7 +141,7 @@ def test_postures_are_counted_and_meet_at_the_target():
     q = [(0.2, 1.0), (1.1, -1.0)]
     target = (0.5 * np.cos(0.2) + 0.5 * np.cos(1.2), 0.5 * np.sin(0.2) + 0.5 * np.sin(1.2), 0)
     ax = draw_chain_postures(PLANAR, ["t1", t2], q, {"a2": 0.5, "a3": 0.5}, tool=True, target=target)
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["posture 1", "posture 2"]
+    assert [text.get_text() for text in ax.figure.legends[0].get_texts()] == ["posture 1", "posture 2"]
     assert {"1", "2"} <= set(texts(ax))
     marks = [line.get_data_3d() for line in ax.lines if line.get_marker() == "+"]
     assert np.ravel(marks) == pytest.approx(target)

@@ -155,7 +155,7 @@ class _Bodies:
         if self.quads:
             colours = np.vstack(self.colours)
             body = Poly3DCollection(
-                np.vstack(self.quads), facecolors=colours, edgecolors=colours, linewidths=0.3, zorder=zorder
+                np.vstack(self.quads), facecolors=colours, edgecolors=colours, linewidths=0.8, zorder=zorder
             )
             ax.add_collection3d(body, autolim=False)
 
@@ -177,8 +177,12 @@ class _Robot:
         self.joints = range(1, len(table) + (0 if tool else 1))
         length = np.abs(table[:, [1, 3]]).sum()
         self.unit = unit or (length if length > 0 else 1.0)
-        self.radius = 0.026 * self.unit
+        self.radius = 0.024 * self.unit
         self.half = 2.0 * self.radius
+        reach = np.abs(table[-1, [1, 3]]).sum() if tool else 0.0
+        self.scale = (
+            min(1.0, reach / (7 * self.radius)) if reach > 0 else 1.0
+        )  # of hand and last joint: they share the tool's length
         self.centres = {i: self._centre(i) for i in self.joints}
         self.hand = self._hand()
         self._part()
@@ -207,7 +211,7 @@ class _Robot:
     def _forward(self):
         """How far the last joint may stand before the one it meets: within the tool, if that is short."""
         room = 2.2 * self.half
-        return min(room, 0.62 * abs(self.table[-1, 3])) if self.tool and self.table[-1, 3] else room
+        return max(0.8 * self.half, room * self.scale) if self.tool and self.table[-1, 3] else room
 
     def _hand(self):
         """Direction in which the hand points, or None where the table does not tell of a hand."""
@@ -227,10 +231,10 @@ class _Robot:
             return np.sign(along) * self.z[n] if abs(along) > 1e-9 else self.z[n]
         return self.z[n]
 
-    def build(self, bodies, link=LINK, joint=JOINT, hand=HAND):
+    def build(self, bodies, link=LINK, joint=JOINT, hand=HAND, base=LINK):
         """Add base, links, joints and hand to `bodies`."""
         r = self.radius
-        self._base(bodies, link)
+        self.base(bodies, base)
         stops = {0: self.base_top} | self.centres
         for i in range(len(self.table)):
             ends = [stops[i], self.origins[i], self.feet[i]]
@@ -255,7 +259,7 @@ class _Robot:
                 over = over / far if far > 1e-9 else along
                 bodies.tube(self.centres[i], self.centres[i] + 2.2 * self.half * over, 0.62 * r, link, caps=True)
             else:
-                reach = self.half * self.z[i]
+                reach = (self.half if i < len(self.joints) else self.half * max(self.scale, 0.4)) * self.z[i]
                 bodies.tube(self.centres[i] - reach, self.centres[i] + reach, 1.75 * r, joint, caps=True)
         if self.hand is not None:
             self._jaws(bodies, hand)
@@ -269,7 +273,7 @@ class _Robot:
         for point in points[1:-1]:
             bodies.ball(point, radius, shade)
 
-    def _base(self, bodies, shade):
+    def base(self, bodies, shade):
         """A column and a plate under joint 1."""
         z0 = self.frames[0, :3, 2]
         walk = (self.feet[0] - self.origins[0]) @ z0
@@ -279,13 +283,13 @@ class _Robot:
         self.base_top = self.origins[0]
         self.base_foot = self.origins[0] + drop * z0
         plate = self.base_foot + 0.5 * self.radius * z0
-        bodies.tube(self.base_foot, plate, 4.2 * self.radius, shade * 0.92 if np.isscalar(shade) else shade, caps=True)
+        bodies.tube(self.base_foot, plate, 4.2 * self.radius, 0.92 * shade, caps=True)
         if drop < 0:
             bodies.tube(plate, self.origins[0], 1.2 * self.radius, shade)
 
     def _jaws(self, bodies, shade):
         """Two fingers that slide along Y of the last frame, O of that frame between their tips."""
-        n, r = len(self.table), self.radius
+        n, r = len(self.table), self.radius * max(self.scale, 0.5)
         tip, side = self.origins[n], self.frames[n, :3, 1]
         palm = tip - 2.4 * r * self.hand
         if not self.tool:
@@ -436,7 +440,7 @@ def draw_chain(
         raise ValueError(f"names: expected {count + 1}, one per frame, found {len(names)}")
     shown = range(count + 1) if frames is None else _indices(frames, count)
     robot = _Robot(table, tool)
-    size = robot.unit * 0.125 if size is None else float(strokes.as_lengths(size, "size", ()))
+    size = robot.unit * 0.15 if size is None else float(strokes.as_lengths(size, "size", ()))
     own, ax = ax is None, ax or strokes.new_axes_3d()
     bodies = _Bodies(ax, robot.unit)
     grey = LINK if shade is None else to_rgb(strokes.POSTURE_SHADES[shade % len(strokes.POSTURE_SHADES)])
@@ -538,6 +542,16 @@ def _towards(ax) -> np.ndarray:
     return np.array([np.cos(elev) * np.cos(azim), np.cos(elev) * np.sin(azim), np.sin(elev)])
 
 
+def _bulge(robot):
+    """The corner of a robot that lies farthest off the line from its first joint to its hand, and the way there."""
+    base, hand = robot.origins[1], robot.origins[-1]
+    path = np.vstack([robot.origins[1:], robot.feet[1:]])
+    along = (hand - base) / max(np.linalg.norm(hand - base), 1e-9)
+    off = (path - base) - np.outer((path - base) @ along, along)
+    k = np.argmax(np.linalg.norm(off, axis=1))
+    return path[k], off[k] if np.linalg.norm(off[k]) > 1e-6 * robot.unit else np.array([0, 0, robot.unit])
+
+
 @strokes.styled
 def draw_chain_postures(rows, joints, solutions, values=None, ax=None, *, tool=False, target=None):
     """The postures of a robot in one drawing, shaded apart and numbered.
@@ -568,21 +582,23 @@ def draw_chain_postures(rows, joints, solutions, values=None, ax=None, *, tool=F
         target = np.array(target.tolist() if isinstance(target, sympy.MatrixBase) else target, dtype=object)
         target = strokes.as_numbers(target.tolist(), "target", (4, 4) if target.ndim == 2 else (3,))
     tables = [_as_rows(rows, dict(values or {}) | dict(zip(joints, q))) for q in solutions]
-    robots = [_Robot(table, tool) for table in tables]
+    unit = max((np.abs(table[:, [1, 3]]).sum() for table in tables), default=0) or 1.0
+    robots = [_Robot(table, tool, unit) for table in tables]
     own, ax = ax is None, ax or strokes.new_axes_3d()
-    unit = max((robot.unit for robot in robots), default=1.0)
-    bodies = _Bodies(ax, unit, fine=12)
-    shades = strokes.POSTURE_SHADES if len(robots) <= 4 else [str(s) for s in np.linspace(0.95, 0.42, len(robots))]
+    shades = strokes.POSTURE_SHADES if len(robots) <= 4 else [str(s) for s in np.linspace(0.95, 0.45, len(robots))]
     labels = Labels()
     extent = [np.zeros((1, 3))]
+    numbers: dict[tuple, list] = {}
     for k, (robot, shade) in enumerate(zip(robots, shades)):
-        robot.unit = unit
+        # One collection per posture: where two share a link, the later one lies on top.
+        bodies = _Bodies(ax, unit, fine=12)
         robot.build(bodies, link=to_rgb(shade), joint=to_rgb(shade), hand=to_rgb(shade))
-        path = np.vstack([robot.origins[:-1], robot.feet])
-        bulge = path[np.argmax(np.linalg.norm(path - (robot.origins[0] + robot.origins[-1]) / 2, axis=1))]
-        labels.ask(bulge, str(k + 1), bulge - (robot.origins[0] + robot.origins[-1]) / 2 + 1e-9, gap=9)
+        bodies.draw(ax, 1 + 0.01 * k)
         extent.append(bodies.points())
-    bodies.draw(ax)
+        at, out = _bulge(robot)
+        numbers.setdefault(tuple(np.round(at / unit, 3) + 0.0), [at, out, []])[2].append(str(k + 1))
+    for at, out, members in numbers.values():
+        labels.ask(at, ", ".join(members), out, gap=12)
     if target is not None:
         point = target if target.shape == (3,) else target[:3, 3]
         ax.plot(*point[:, None], marker="o", ms=13, mfc="none", mec=strokes.INK, mew=1.3, zorder=7)
@@ -595,10 +611,16 @@ def draw_chain_postures(rows, joints, solutions, values=None, ax=None, *, tool=F
         extent = np.vstack([extent, extent - 0.5 * unit, extent + 0.5 * unit])
     if robots:
         handles = [
-            Patch(facecolor=shade, edgecolor=strokes.INK, label=f"posture {k + 1}")
-            for k, shade in zip(range(len(robots)), shades)
+            Patch(facecolor=s, edgecolor=strokes.INK, label=f"posture {k + 1}") for k, s in enumerate(shades[: len(robots)])
         ]
-        ax.legend(handles=handles, loc="upper left", fontsize=9)
+        # Below our own figure; in somebody else's axes there may be no room outside.
+        below = {
+            "loc": "upper center",
+            "bbox_to_anchor": (0.5, 0.0),
+            "bbox_transform": ax.figure.transFigure,
+            "ncols": min(len(robots), 4),
+        }
+        (ax.figure if own else ax).legend(handles=handles, fontsize=9, **(below if own else {"loc": "upper left"}))
     else:
         strokes.write_3d(ax, (0, 0, 0), "no posture")
     strokes.fit_3d(ax, extent, own, pad=0.42)
