@@ -96,7 +96,7 @@ class Chain:
         driven = np.flatnonzero(coefficients.any(axis=1))
         if len(driven) > MAX_JOINTS:
             raise NotAChain(f"the table has {len(driven)} joints; at most {MAX_JOINTS} are compared")
-        frames = [_transforms(*(np.array(column) for column in np.broadcast_arrays(*row[2:]))) for row in rows]
+        frames = [transforms(*(np.array(column) for column in np.broadcast_arrays(*row[2:]))) for row in rows]
         for i in range(1, len(frames)):
             frames[i] = frames[i - 1] @ frames[i]
         points = max(len(frame) for frame in frames)
@@ -203,7 +203,7 @@ def _row(number: int, entries: Sequence[object], values: _Values) -> tuple:
     return variable, prismatic, a, alpha, d, theta
 
 
-def _transforms(a: np.ndarray, alpha: np.ndarray, d: np.ndarray, theta: np.ndarray) -> np.ndarray:
+def transforms(a: np.ndarray, alpha: np.ndarray, d: np.ndarray, theta: np.ndarray) -> np.ndarray:
     """Modified DH matrices, (K, 4, 4)."""
     c, s, ca, sa = np.cos(theta), np.sin(theta), np.cos(alpha), np.sin(alpha)
     zero, one = np.zeros_like(a), np.ones_like(a)

@@ -6,18 +6,22 @@ What students handed in outlives grading as text, `keep`; it is decoded again as
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 from dhkit import wire
 
-from .decode import Blank, Malformed, Number, Value, decode_answer
-from .kinds import KINDS, Setting
-from .question import Question, Variant
+from .decode import Blank, Function, Malformed, Number, Value, decode_answer
+from .kinds import KINDS, Entries, Setting
+from .question import Family, Question, Variant
 
-UNEXPLAINED = frozenset({"nothing_matched", "partly_right", "malformed"})
+UNEXPLAINED = frozenset({"nothing_matched", "partly_right", "one_cell", "malformed"})
 MAX_KEPT = 20_000
+
+# Measured errors, which differ between students who made the same mistake with other numbers.
+_MEASURE = re.compile(r"\d+(\.\d+)?%|(?<=by )(up to )?[-+.e\d]+")
 
 
 def is_unexplained(note: str) -> bool:
@@ -26,13 +30,16 @@ def is_unexplained(note: str) -> bool:
 
 
 def keep(question: str, bundle: object) -> str | None:
-    """The bundle of an answer as JSON text; None if it is longer than `MAX_KEPT` characters or cannot be decoded."""
+    """The bundle of an answer as JSON text.
+
+    None for a function, whose name says nothing, for what cannot be decoded, and for more than `MAX_KEPT` characters.
+    """
     try:
-        decode_answer(bundle, question)
+        answer = decode_answer(bundle, question)
         text = json.dumps(bundle, separators=(",", ":"))
-    except (Malformed, ValueError):
+    except (ValueError, RecursionError):
         return None
-    return text if len(text) <= MAX_KEPT else None
+    return text if len(text) <= MAX_KEPT and not isinstance(answer, Function) else None
 
 
 def kept(question: str, text: object) -> Value | None:
@@ -47,11 +54,20 @@ def kept(question: str, text: object) -> Value | None:
 
 @dataclass(frozen=True)
 class Attempt:
-    """One student's unexplained answer: what the judge said about it, and the answer, if it was kept."""
+    """One student's unexplained answer.
+
+    Attributes
+    ----------
+    said : str
+        What the judge said about it.
+    answer, right : decoded answer or None
+        What was handed in, if it was kept, and what would have been right for this student.
+    """
 
     student: str
     said: str
     answer: Value | None = None
+    right: Value | None = None
 
 
 @dataclass(frozen=True)
@@ -70,6 +86,10 @@ class Cluster:
     alike: bool
 
     @property
+    def size(self) -> int:
+        return len(self.attempts)
+
+    @property
     def said(self) -> str:
         return self.attempts[0].said
 
@@ -81,76 +101,64 @@ class Cluster:
 def cluster(question: Question, attempts: Iterable[Attempt]) -> tuple[Cluster, ...]:
     """Clusters of equal answers, the largest first.
 
-    Equal answers make the judge say the same, so only those are compared. What cannot be compared goes by the
-    judge's words alone: functions, answers in another form, and answers to a question with other numbers for
-    each student.
+    What cannot be compared goes by the judge's words alone: functions, answers in another form, and answers to a
+    question that has other numbers for each student.
     """
-    by_words: dict[str, list[Attempt]] = {}
-    for attempt in sorted(attempts, key=lambda attempt: attempt.student):
-        by_words.setdefault(attempt.said, []).append(attempt)
-    found = [cluster for same_words in by_words.values() for cluster in _by_value(question, same_words)]
-    return tuple(sorted(found, key=lambda cluster: -len(cluster.attempts)))
+    attempts = sorted(attempts, key=lambda attempt: attempt.student)
+    forms = [_form(question, attempt.answer) for attempt in attempts]
+    if len({repr(attempt.right) for attempt in attempts}) > 1:
+        forms = [None] * len(attempts)
+    alike: list[list[int]] = []
+    words: dict[str, list[int]] = {}
+    for i, form in enumerate(forms):
+        if form is None:
+            words.setdefault(_MEASURE.sub("...", attempts[i].said), []).append(i)
+            continue
+        for heap in alike:
+            if attempts[heap[0]].answer == attempts[i].answer or form.equals(forms[heap[0]]):
+                heap.append(i)
+                break
+        else:
+            alike.append([i])
+    heaps = [(heap, True) for heap in alike] + [(heap, False) for heap in words.values()]
+    found = [Cluster(tuple(attempts[i] for i in heap), by_value) for heap, by_value in heaps]
+    return tuple(sorted(found, key=lambda cluster: -cluster.size))
 
 
 def right_answer(question: Question, student: str) -> Value | None:
     """The question's own answer for `student`, as if it had been handed in; None for a function."""
-    if question.public.kind == "function":
+    if question.public.kind not in KINDS:
         return None
-    answer = wire.bundle(question.id, answer=wire.encode(question.reference(Variant(student))))
-    return decode_answer(answer, question.id)
-
-
-def _by_value(question: Question, attempts: list[Attempt]) -> list[Cluster]:
-    forms = {attempt.student: _form(question, attempt) for attempt in attempts}
-    comparable = [attempt for attempt in attempts if forms[attempt.student] is not None]
-    if comparable and len({repr(right_answer(question, attempt.student)) for attempt in comparable}) > 1:
-        comparable = []
-    heaps: list[list[Attempt]] = []
-    for attempt in comparable:
-        mine = forms[attempt.student]
-        same = (heap for heap in heaps if heap[0].answer == attempt.answer or mine.equals(forms[heap[0].student]))
-        heap = next(same, None)
-        if heap is None:
-            heaps.append([attempt])
-        else:
-            heap.append(attempt)
-    others = [attempt for attempt in attempts if attempt not in comparable]
-    clusters = [Cluster(tuple(heap), True) for heap in heaps]
-    return clusters + ([Cluster(tuple(others), False)] if others else [])
+    answer = question.reference(Variant(student))
+    answer = answer.solutions if isinstance(answer, Family) else answer
+    return decode_answer(wire.bundle(question.id, answer=wire.encode(answer)), question.id)
 
 
 @dataclass(frozen=True, eq=False)
 class _Form:
-    """An answer in its kind's own form; what was left blank is held apart, because blanks have no value."""
+    """An answer in its kind's own form; which entries were left blank stands apart, because a blank equals nothing."""
 
     question: Question
     value: object
-    blanks: Value
+    blanks: tuple[bool, ...] = ()
 
     def equals(self, other: _Form) -> bool:
         if self.blanks != other.blanks:
             return False
         question = self.question
-        setting = Setting(question.points(), question.angles, question.tolerance, question.pinned)
+        setting = Setting(question.points, question.angles, question.tolerance, question.pinned)
         with np.errstate(all="ignore"):
             return KINDS[question.public.kind].compare(question.public, self.value, other.value, setting).equal
 
 
-def _form(question: Question, attempt: Attempt) -> _Form | None:
-    if attempt.answer is None or question.public.kind not in KINDS:
+def _form(question: Question, answer: Value | None) -> _Form | None:
+    if answer is None or question.public.kind not in KINDS:
         return None
     try:
-        value = KINDS[question.public.kind].read(question.public, _filled(attempt.answer))
+        value = KINDS[question.public.kind].read(question.public, answer)
     except Malformed:
         return None
-    return _Form(question, value, _blanks(attempt.answer))
-
-
-def _filled(answer: Value) -> Value:
-    if isinstance(answer, tuple):
-        return tuple(map(_filled, answer))
-    return Number(0) if isinstance(answer, Blank) else answer
-
-
-def _blanks(answer: Value) -> Value | bool:
-    return tuple(map(_blanks, answer)) if isinstance(answer, tuple) else isinstance(answer, Blank)
+    if not isinstance(value, Entries):
+        return _Form(question, value)
+    filled = tuple(Number(0) if isinstance(entry, Blank) else entry for entry in value.expressions)
+    return _Form(question, Entries(filled), tuple(isinstance(entry, Blank) for entry in value.expressions))

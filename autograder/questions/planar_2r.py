@@ -7,8 +7,28 @@ from functools import lru_cache
 import numpy as np
 import sympy
 
-from autograder.judge import Question, mistake
-from autograder.judge.misconceptions import classic_rows, exchanged, product, reversed_product, transposed_rotation
+from autograder.judge import Follow, Question, following, mistake
+from autograder.judge.misconceptions import (
+    angle_not_summed,
+    angles_subtracted,
+    atan2_arguments_exchanged,
+    atan_for_atan2,
+    classic_table,
+    columns_exchanged,
+    degrees,
+    fails_on_limit,
+    misprint,
+    of_function,
+    posture_missing,
+    product,
+    reversed_product,
+    symbols_exchanged,
+    tool_in_joint_row,
+    tool_left_out,
+    tool_twice,
+    transposed_rotation,
+    with_first_theta1,
+)
 from autograder.reference import DHRow, robots
 
 t1, t2, L1, L2, x, y = sympy.symbols("t1 t2 L1 L2 x y")
@@ -27,26 +47,6 @@ FOREARM = tuple(TABLE.recursion()[1][1::-1, 3])  # the hand seen from link 1: to
 
 LENGTHS = (0.5, 0.4)
 TARGET = (0.3, 0.6)
-
-RELATIVE_ANGLE = (
-    "**The second link is placed as if t2 were measured from the x axis.** t2 goes from link 1 to link 2: with "
-    "t2 = 0 the arm is stretched, whatever t1 is."
-)
-DIFFERENCE = (
-    "**The two joint angles are subtracted.** Both joints turn in the same sense: which angle does link 2 make with "
-    "the x axis when both turn by 10 degrees?"
-)
-SLIDE_Y = (
-    "**This is the form printed on the slide, and it is an erratum.** In the expansion of y the first term "
-    "carries a cosine; compare it with the line above it."
-)
-ONE_POSTURE = "**One posture is missing.** A cosine alone does not tell the sign of its angle."
-ATAN = (
-    "**atan loses the quadrant.** It cannot tell a target behind the base from one in front of it; a function of two "
-    "arguments can."
-)
-EXCHANGED = "**The arguments of atan2 are exchanged.** The ordinate comes first: atan2(y, x)."
-DEGREES = "**The angles are in degrees.** The question asks for radians."
 
 
 def plane(angle, length):
@@ -72,23 +72,11 @@ def reachable_point(rng: np.random.Generator) -> dict[str, float]:
 @lru_cache(maxsize=1024)
 def solutions(px, py, l1, l2):
     """All (t1, t2) that bring the hand to (px, py)."""
-    return robots.planar_2r(l1, l2).solve((px, py)).q
+    return robots.planar_2r(l1, l2).solve((px, py)).q.tolist()
 
 
 def postures():
     return solutions(*TARGET, *LENGTHS)
-
-
-def with_exchanged_lengths(answer):
-    return sympy.Matrix(answer).subs({L1: L2, L2: L1}, simultaneous=True)
-
-
-def with_subtracted_angles(answer):
-    return sympy.Matrix(answer).subs(t2, -t2)
-
-
-def with_first_t1(found):
-    return [[found[0][0], q2] for _, q2 in found]
 
 
 def with_opposite_elbows(found):
@@ -162,36 +150,31 @@ def plain_atan_direction(py, px):
     return np.arctan(py / px) if px else None
 
 
+def lengths_exchanged(feedback):
+    return symbols_exchanged(L1, L2, "lengths_exchanged", f"**The two lengths are exchanged.** {feedback}")
+
+
+def misses(q, variant, *target):
+    """How far the hand is from the target, (k,), for joint values (k, 2)."""
+    px, py, l1, l2 = target or (*TARGET, *LENGTHS)
+    t1, t12 = q[:, 0], q.sum(axis=1)
+    return np.hypot(l1 * np.cos(t1) + l2 * np.cos(t12) - px, l1 * np.sin(t1) + l2 * np.sin(t12) - py)
+
+
 QUESTIONS = (
     Question(
         "planar_2r.table",
         reference=lambda variant: ROWS,
         mistakes=(
-            mistake(
-                "classic_table",
-                0.3,
-                "**This is the classic Denavit-Hartenberg table**, as on the Romanian slide whose header says modified. "
+            classic_table(
+                feedback="**This is the classic Denavit-Hartenberg table**, as on the Romanian slide whose header says modified. "
                 "In the modified form row i holds the link *before* joint i.",
-                classic_rows,
             ),
-            mistake(
-                "a_and_d_exchanged",
-                0.3,
-                "**The columns a and d are exchanged.** a is counted along X, from one joint axis to the next; d along Z.",
-                lambda rows: exchanged(rows, "a", "d"),
-            ),
-            mistake(
-                "lengths_exchanged",
-                0.5,
-                "**The two lengths are exchanged.** Which link lies between the two joint axes?",
-                lambda rows: with_exchanged_lengths(sympy.Matrix(rows)).tolist(),
-            ),
-            mistake(
-                "tool_left_out",
-                0.5,
-                "**The tool length is missing.** The last row must bring the origin from the elbow to the hand.",
-                lambda rows: [*rows[:2], [0, 0, 0, 0, 0]],
-            ),
+            columns_exchanged("a", "d"),
+            lengths_exchanged("Which link lies between the two joint axes?"),
+            tool_left_out(),
+            tool_twice(),
+            tool_in_joint_row(),
         ),
         partial=0.6,
     ),
@@ -199,21 +182,21 @@ QUESTIONS = (
         "planar_2r.model",
         reference=lambda variant: MODEL,
         mistakes=(
-            mistake("slide_misprint_y", 0.6, SLIDE_Y, lambda model: [model[0], model[1] - L1 * sympy.sin(t1) + L1 * sympy.cos(t1)]),
-            mistake("angle_not_summed", 0.4, RELATIVE_ANGLE, lambda _: summed(plane(t1, L1), plane(t2, L2))),
-            mistake("angles_subtracted", 0.4, DIFFERENCE, with_subtracted_angles),
+            misprint(
+                lambda model: [model[0], model[1] - L1 * sympy.sin(t1) + L1 * sympy.cos(t1)],
+                "in the expansion of y the first term carries a cosine: compare it with the line above it.",
+                note="slide_misprint_y",
+                share=0.6,
+            ),
+            angle_not_summed(summed(plane(t1, L1), plane(t2, L2))),
+            angles_subtracted(t2),
             mistake(
                 "x_and_y_exchanged",
                 0.5,
                 "**x and y are exchanged.** With both angles zero the arm lies on the x axis.",
                 lambda model: model[::-1],
             ),
-            mistake(
-                "lengths_exchanged",
-                0.5,
-                "**The two lengths are exchanged.** L1 is the link at the base.",
-                with_exchanged_lengths,
-            ),
+            lengths_exchanged("L1 is the link at the base."),
         ),
     ),
     Question(
@@ -226,20 +209,11 @@ QUESTIONS = (
                 "**The tool is missing: this is 0T2, whose origin is at the elbow.** The hand is one length further on.",
                 lambda _: product(TRANSFORMS[:2]),
             ),
-            mistake(
-                "reversed_product",
-                0.3,
-                "**The matrices are multiplied in the reverse order.** From left to right: base first, tool last.",
-                lambda _: reversed_product(TRANSFORMS),
-            ),
-            mistake(
-                "transposed_rotation",
-                0.4,
-                "**The rotation block is transposed.** Its columns, not its rows, are the axes of the hand's frame.",
-                transposed_rotation,
-            ),
-            mistake("angles_subtracted", 0.4, DIFFERENCE, with_subtracted_angles),
+            reversed_product(*TRANSFORMS),
+            transposed_rotation(),
+            angles_subtracted(t2),
         ),
+        follows=Follow("planar_2r.table", following.product_of_table),
     ),
     Question(
         "planar_2r.cos_theta2",
@@ -271,22 +245,8 @@ QUESTIONS = (
         "planar_2r.theta1",
         reference=lambda variant: DIRECTION - sympy.atan2(*FOREARM),
         mistakes=(
-            mistake(
-                "atan_for_atan2",
-                0.5,
-                ATAN,
-                lambda angle: angle.subs(DIRECTION, sympy.atan(y / x)),
-                lambda angle: angle.replace(sympy.atan2, lambda n, m: sympy.atan(n / m)),
-                lambda angle: angle.subs(sympy.atan2(*FOREARM), sympy.atan(FOREARM[0] / FOREARM[1])),
-            ),
-            mistake(
-                "atan2_arguments_exchanged",
-                0.4,
-                EXCHANGED,
-                lambda angle: angle.replace(sympy.atan2, lambda n, m: sympy.atan2(m, n)),
-                lambda angle: angle.subs(DIRECTION, sympy.atan2(x, y)),
-                lambda angle: angle.subs(sympy.atan2(*FOREARM), sympy.atan2(*FOREARM[::-1])),
-            ),
+            atan_for_atan2(2),
+            atan2_arguments_exchanged(2),
             mistake(
                 "sign_of_second_angle",
                 0.5,
@@ -333,25 +293,19 @@ QUESTIONS = (
         "planar_2r.postures",
         reference=lambda variant: postures(),
         mistakes=(
-            mistake("one_posture_missing", 0.5, ONE_POSTURE, lambda found: found[:1], lambda found: found[1:]),
-            mistake(
-                "posture_with_other_theta1",
-                0.4,
-                "**Both postures share one t1.** Each t2 has a t1 of its own: put your second solution into the "
-                "direct model and see where the hand goes.",
-                with_first_t1,
-                lambda found: with_first_t1(found[::-1]),
-            ),
+            posture_missing(),
+            with_first_theta1(),
             mistake(
                 "elbows_crossed",
                 0.4,
                 "**Each t1 is paired with the other posture's t2.** The pairs belong together: put them into the direct model.",
                 with_opposite_elbows,
             ),
-            mistake("degrees", 0.4, DEGREES, np.degrees, turn=360),
+            degrees(0, 1),
         ),
         angles=(0, 1),
         tolerance=1e-3,
+        misses=misses,
     ),
     Question(
         "planar_2r.inverse",
@@ -360,26 +314,20 @@ QUESTIONS = (
             mistake(
                 "one_posture_missing",
                 0.5,
-                ONE_POSTURE,
+                posture_missing().feedback,
                 lambda inverse: lambda *target: inverse(*target)[:1],
                 lambda inverse: lambda *target: inverse(*target)[-1:],
             ),
             mistake(
                 "atan_for_atan2",
                 0.5,
-                ATAN,
+                atan_for_atan2().feedback,
                 lambda _: inverse(direction=atan_direction),
                 lambda _: inverse(direction=atan_direction, clipped=False, beyond=None),
                 lambda _: inverse(direction=plain_atan_direction),
                 lambda _: inverse(direction=plain_atan_direction, clipped=False, beyond=None),
             ),
-            mistake(
-                "unclipped_acos",
-                0.6,
-                "**On a limit your function fails.** Rounding pushes the cosine of t2 a hair above 1, where acos has no "
-                "value. What must the cosine be on the limit?",
-                lambda _: inverse(clipped=False, beyond=None),
-            ),
+            fails_on_limit(inverse(clipped=False, beyond=None)),
             mistake(
                 "limit_taken_for_out_of_reach",
                 0.7,
@@ -394,7 +342,7 @@ QUESTIONS = (
                 "you take acos.",
                 lambda _: inverse(beyond=None),
             ),
-            mistake("degrees", 0.4, DEGREES, lambda inverse: lambda *target: np.degrees(inverse(*target)), turn=360),
+            of_function(degrees(0, 1)),
             mistake(
                 "no_solution_at_all",
                 0.0,
@@ -406,6 +354,7 @@ QUESTIONS = (
         tolerance=1e-4,
         probe=probes,
         group=where,
+        misses=misses,
     ),
     Question("planar_2r.centre", reference=lambda variant: "D"),
 )

@@ -2,21 +2,30 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 import sympy
 
-from autograder.judge import Question, mistake
+from autograder.judge import Follow, Question, following, mistake
 from autograder.judge.misconceptions import (
-    classic_rows,
-    classic_transform,
-    exchanged,
-    negated,
+    angle_not_summed,
+    angles_subtracted,
+    arguments_in_degrees,
+    classic_matrix,
+    classic_table,
+    columns_exchanged,
+    degrees,
+    one_factor_missing,
+    posture_missing,
     product,
     reversed_product,
     revolute_everywhere,
+    sign_of,
+    symbol_negated,
     transposed_rotation,
+    with_first_theta1,
 )
 from autograder.reference import DHTable, robots
 
@@ -36,35 +45,6 @@ D2_IS_A_DEPTH = (
     "**The sign of d2 is turned.** d2 counts downwards, like the depth of the quill, while Z3 points upwards. The "
     "slides print the table twice, once with each sign: only one of them goes with their matrices."
 )
-RELATIVE_ANGLE = (
-    "**The second link is placed as if t2 were measured from the x axis.** t2 goes from link 1 to link 2: look at "
-    "the arm from above with t2 = 0, where it is stretched."
-)
-DIFFERENCE = (
-    "**The two joint angles are subtracted.** Both joints turn in the same sense about parallel axes: look at what "
-    "the product of two rotations about z does to their angles."
-)
-CLASSIC_TABLE = (
-    "**This is the classic Denavit-Hartenberg table.** In the modified form (Khalil-Kleinfinger) row i holds a and "
-    "alpha of the link *before* joint i. See the slide that compares the two conventions."
-)
-CLASSIC_MATRIX = (
-    "**This is the matrix of classic Denavit-Hartenberg.** The modified form begins with the step along and about "
-    "X, and ends with the step along and about Z. See the slide that compares the two conventions."
-)
-REVERSED = "**The matrices are multiplied in the reverse order.** Read 0T4 as 0T1, then 1T2, then 2T3, then 3T4."
-TRANSPOSED = "**The rotation block is transposed.** Its columns, not its rows, are the axes of the new frame."
-DEGREES = "**The angles are taken in degrees.** The question and numpy's cos and sin count in radians."
-
-
-def turned_quill(answer):
-    """The answer with d2 counted upwards, as in the second print of the table."""
-    return sympy.Matrix(answer).subs(d2, -d2)
-
-
-def subtracted_angles(answer):
-    """The answer with theta1 - theta2 in the place of theta1 + theta2."""
-    return sympy.Matrix(answer).subs(t2, -t2)
 
 
 @lru_cache
@@ -73,15 +53,14 @@ def forward():
     return sympy.lambdify([t1, t2, d2, t4, a2, a3], U0)
 
 
-def with_angles_in_degrees(model):
-    """A direct model whose angles are taken in degrees."""
-    return lambda t1, t2, d2, t4, a2, a3: model(np.radians(t1), np.radians(t2), d2, np.radians(t4), a2, a3)
-
-
 def probes(rng: np.random.Generator) -> list[list[float]]:
     """Argument lists for forward: random ones, then round angles."""
     draws = [[*rng.uniform(-3, 3, 2), rng.uniform(0.05, 0.3), rng.uniform(-3, 3), *rng.uniform(0.2, 0.6, 2)] for _ in range(8)]
-    round_angles = [[np.pi / 2, 0.0, 0.1, np.pi, 0.4, 0.3], [0.0, -np.pi / 2, 0.2, np.pi / 4, 0.25, 0.35], [np.pi, np.pi, 0.0, 0.0, 0.4, 0.4]]
+    round_angles = [
+        [np.pi / 2, 0.0, 0.1, np.pi, 0.4, 0.3],
+        [0.0, -np.pi / 2, 0.2, np.pi / 4, 0.25, 0.35],
+        [np.pi, np.pi, 0.0, 0.0, 0.4, 0.4],
+    ]
     return [[float(value) for value in args] for args in draws + round_angles]
 
 
@@ -91,26 +70,26 @@ def postures():
     return robots.scara(**LENGTHS).solve(POSE).q
 
 
-def with_first_t4(solutions):
-    return [[*solution[:3], solutions[0][3]] for solution in solutions]
-
-
-def with_first_t1(solutions):
-    return [[solutions[0][0], *solution[1:]] for solution in solutions]
-
-
 def with_first_t1_and_heading(solutions):
     """Both t1 alike, and each t4 made up from them so that the heading is right."""
     q1 = solutions[0][0]
     return [[q1, q2, depth, q4 + first - q1] for first, q2, depth, q4 in solutions]
 
 
+def misses(q, variant):
+    """How far the hand is from `POSE`, (k,), for joint values (k, 4)."""
+    hands = np.array([forward()(q1, q2, depth, q4, *LENGTHS.values()) for q1, q2, depth, q4 in q])
+    heading = np.arctan2(hands[:, 1, 0], hands[:, 0, 0]) - POSE[3]
+    return np.linalg.norm(hands[:, :3, 3] - POSE[:3], axis=1) + np.abs((heading + np.pi) % (2 * np.pi) - np.pi)
+
+
 def with_turned_d2(solutions):
     return [[*solution[:2], -solution[2], solution[3]] for solution in solutions]
 
 
-def in_degrees(solutions):
-    return [[np.degrees(q1), np.degrees(q2), depth, np.degrees(q4)] for q1, q2, depth, q4 in solutions]
+def turned_quill(share=0.7):
+    """The answer with d2 counted upwards, as in the second print of the table."""
+    return symbol_negated(d2, "sign_of_d2", D2_IS_A_DEPTH, share)
 
 
 QUESTIONS = (
@@ -118,27 +97,11 @@ QUESTIONS = (
         "scara.table",
         reference=lambda variant: ROWS,
         mistakes=(
-            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, lambda rows: negated(rows, 3, "d")),
-            mistake("classic_table", 0.3, CLASSIC_TABLE, classic_rows),
-            mistake(
-                "a_and_d_exchanged",
-                0.3,
-                "**The columns a and d are exchanged.** a is counted along X, from one joint axis to the next; d along Z.",
-                lambda rows: exchanged(rows, "a", "d"),
-            ),
-            mistake(
-                "a_and_alpha_exchanged",
-                0.4,
-                "**The columns a and alpha are exchanged.** Some slides print alpha first; the question asks for "
-                "sigma, a, alpha, d, theta.",
-                lambda rows: exchanged(rows, "a", "alpha"),
-            ),
-            mistake(
-                "sigma_all_revolute",
-                0.7,
-                "**One joint slides, and sigma must say so.** Look at what its motor changes: an angle or a distance?",
-                revolute_everywhere,
-            ),
+            sign_of("d", 3, note="sign_of_d2", share=0.7, feedback=D2_IS_A_DEPTH),
+            classic_table(),
+            columns_exchanged("a", "d"),
+            columns_exchanged("a", "alpha", share=0.4),
+            revolute_everywhere(),
         ),
         partial=0.6,
     ),
@@ -146,38 +109,30 @@ QUESTIONS = (
         "scara.dhm",
         reference=lambda variant: DHTable([(0, *GENERAL)], joints=GENERAL[3:]).transforms()[0],
         mistakes=(
-            mistake("classic_matrix", 0.3, CLASSIC_MATRIX, lambda _: classic_transform(*GENERAL)),
-            mistake(
+            classic_matrix(GENERAL),
+            symbol_negated(
+                GENERAL[1],
                 "sign_of_alpha",
-                0.5,
                 "**alpha turns the wrong way.** Write Rot_x(alpha) alone and see where it sends the y axis.",
-                lambda matrix: matrix.subs(GENERAL[1], -GENERAL[1]),
+                0.5,
             ),
-            mistake(
-                "transposed_rotation",
-                0.4,
-                TRANSPOSED,
-                transposed_rotation,
-            ),
+            transposed_rotation(),
         ),
     ),
     Question(
         "scara.U1",
         reference=lambda variant: U1,
         mistakes=(
-            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, turned_quill),
-            mistake("reversed_product", 0.3, REVERSED, lambda _: reversed_product(TRANSFORMS[1:])),
+            turned_quill(),
+            reversed_product(*TRANSFORMS[1:]),
             mistake(
                 "one_matrix_only",
                 0.2,
                 "**This is one elementary matrix.** U1 gathers everything from frame 1 to the hand.",
                 *(lambda _, matrix=matrix: matrix for matrix in TRANSFORMS[1:3]),
             ),
-            mistake(
-                "one_step_short",
-                0.4,
-                "**The recursion stopped one step too early.** This is U2 = 2T4.",
-                lambda _: product(TRANSFORMS[2:]),
+            one_factor_missing(
+                product(TRANSFORMS[2:]), feedback="**The recursion stopped one step too early.** This is U2 = 2T4."
             ),
         ),
     ),
@@ -185,35 +140,25 @@ QUESTIONS = (
         "scara.T04",
         reference=lambda variant: U0,
         mistakes=(
-            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, turned_quill),
-            mistake("reversed_product", 0.3, REVERSED, lambda _: reversed_product(TRANSFORMS)),
-            mistake("angles_subtracted", 0.4, DIFFERENCE, subtracted_angles),
-            mistake(
-                "classic_matrices",
-                0.3,
-                CLASSIC_MATRIX,
-                lambda _: product([classic_transform(*row[1:]) for row in ROWS]),
-            ),
-            mistake("transposed_rotation", 0.4, TRANSPOSED, transposed_rotation),
-            mistake(
-                "one_step_short",
-                0.4,
-                "**The recursion stopped one step too early.** This is U1 = 1T4: the first joint is not in it.",
-                lambda _: U1,
+            turned_quill(),
+            reversed_product(*TRANSFORMS),
+            angles_subtracted(t2),
+            classic_matrix(*(row[1:] for row in ROWS), note="classic_matrices"),
+            transposed_rotation(),
+            one_factor_missing(
+                U1, feedback="**The recursion stopped one step too early.** This is U1 = 1T4: the first joint is not in it."
             ),
         ),
+        follows=Follow("scara.table", following.product_of_table),
     ),
     Question(
         "scara.model",
         reference=lambda variant: MODEL,
         mistakes=(
-            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, turned_quill),
-            mistake("angles_subtracted", 0.4, DIFFERENCE, subtracted_angles),
-            mistake(
-                "angle_not_summed",
-                0.4,
-                RELATIVE_ANGLE,
-                lambda model: [a2 * sympy.cos(t1) + a3 * sympy.cos(t2), a2 * sympy.sin(t1) + a3 * sympy.sin(t2), *model[2:]],
+            turned_quill(),
+            angles_subtracted(t2),
+            angle_not_summed(
+                [a2 * sympy.cos(t1) + a3 * sympy.cos(t2), a2 * sympy.sin(t1) + a3 * sympy.sin(t2), *MODEL[2:]],
             ),
             mistake(
                 "theta4_left_out",
@@ -224,52 +169,47 @@ QUESTIONS = (
         ),
         partial=0.7,
         angles=(3,),
+        follows=Follow("scara.T04", lambda T04: np.column_stack([following.position(T04), following.heading(T04)])),
     ),
-    Question("scara.d2_sign", reference=lambda variant: "B"),
+    Question(
+        "scara.d2_sign",
+        reference=lambda variant: "B",
+    ),
     Question(
         "scara.forward",
         reference=lambda variant: forward(),
         mistakes=(
             mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, lambda model: lambda t1, t2, d2, *rest: model(t1, t2, -d2, *rest)),
-            mistake("degrees", 0.4, DEGREES, with_angles_in_degrees),
-            mistake(
-                "angles_subtracted", 0.4, DIFFERENCE, lambda model: lambda t1, t2, *rest: model(t1, -t2, *rest)
-            ),
+            arguments_in_degrees(0, 1, 3),
+            replace(angles_subtracted(), steps=(lambda model: lambda t1, t2, *rest: model(t1, -t2, *rest),)),
         ),
         probe=probes,
     ),
     Question(
         "scara.postures",
-        reference=lambda variant: postures(),
+        reference=lambda variant: postures().tolist(),
         mistakes=(
-            mistake(
-                "one_posture_missing",
-                0.5,
-                "**One posture is missing.** A cosine alone does not tell the sign of its angle.",
-                lambda solutions: solutions[:1],
-                lambda solutions: solutions[1:],
-            ),
+            posture_missing(),
             mistake(
                 "posture_with_other_theta1",
                 0.4,
                 "**Both postures share one t1.** Each t2 has a t1 of its own: put your second solution into the "
                 "direct model and see where the hand goes.",
-                with_first_t1,
-                lambda solutions: with_first_t1(solutions[::-1]),
+                *with_first_theta1().steps,
                 with_first_t1_and_heading,
                 lambda solutions: with_first_t1_and_heading(solutions[::-1]),
             ),
-            mistake(
-                "posture_with_other_theta4",
-                0.6,
-                "**Both postures share one t4.** The heading is the sum of three angles, and two of them have changed.",
-                with_first_t4,
-                lambda solutions: with_first_t4(solutions[::-1]),
+            with_first_theta1(
+                3,
+                note="posture_with_other_theta4",
+                share=0.6,
+                feedback="**Both postures share one t4.** The heading is the sum of three angles, and two of them have changed.",
             ),
             mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, with_turned_d2),
-            mistake("degrees", 0.4, DEGREES, in_degrees, turn=360),
+            degrees(0, 1, 3),
         ),
         angles=(0, 1, 3),
         tolerance=1e-3,
+        misses=misses,
     ),
 )
