@@ -341,8 +341,9 @@ def angle_arc_3d(ax, centre, start, side, radius, sweep, label, away=1.3):
     arc = centre + radius * (np.outer(np.cos(turn), start) + np.outer(np.sin(turn), side))
     ax.plot(*arc[:-2].T, color=INK, lw=1.1, zorder=4)
     arrow_3d(ax, arc[-4], arc[-1], width=1.1, scale=8, zorder=4)
-    middle = np.cos(sweep / 2) * start + np.sin(sweep / 2) * side
-    write_3d(ax, centre + away * radius * middle, f"${label}$")
+    if label:
+        middle = np.cos(sweep / 2) * start + np.sin(sweep / 2) * side
+        write_3d(ax, centre + away * radius * middle, f"${label}$")
 
 
 def solid(ax, outline, low, high, shade=0.85, zorder=1.0):
