@@ -123,6 +123,8 @@ def _in_words(name: str, cell: NotebookNode) -> str:
         return f"the check cell of {short}"
     if name.endswith("-answer"):
         return f"the answer cell of {short.removesuffix('-answer')}"
+    if _keeps_source(cell):
+        return "the answer to the open problem"
     return f"the locked cell {name}"
 
 
