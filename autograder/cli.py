@@ -97,10 +97,10 @@ def _parser() -> argparse.ArgumentParser:
     feedback.add_argument("exercise")
 
     report = command(
-        "report", _report, "Show points and answer notes per question.", "autograder report scara --to build/scara.csv"
+        "report", _report, "Show how the class did on each question; write a page and tables.", "autograder report scara"
     )
     report.add_argument("exercise")
-    report.add_argument("--to", metavar="FILE", help="also write the counts as CSV")
+    report.add_argument("--to", metavar="FOLDER", help="folder to write to (default: build/reports/EXERCISE in the course)")
 
     export = command("export", _export, "Write grades and notes as CSV.", "autograder export --exercise scara --to grades.csv")
     export.add_argument("--exercise", action="append", default=[], metavar="NAME", help="only this exercise; may be repeated")
@@ -169,13 +169,18 @@ def _feedback(options) -> int:
 
 
 def _report(options) -> int:
-    from autograder.grading.report import question_reports, write_csv
+    from pathlib import Path
+
+    from autograder.grading.page import write_report
+    from autograder.grading.report import class_report
     from autograder.grading.table import report_table
 
-    reports = question_reports(_course(options), options.exercise)
-    report_table(reports)
-    if options.to:
-        write_csv(reports, options.to)
+    course = _course(options)
+    report = class_report(course, options.exercise)
+    folder = Path(options.to) if options.to else course.root / "build/reports" / options.exercise
+    page = write_report(report, folder)
+    report_table(report)
+    print(f"report: {page}")
     return 0
 
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from nbgrader.api import Assignment, Gradebook, MissingEntry, Student
 from nbgrader.plugins import ExportPlugin
 
+from .inert import spreadsheet_cell
 from .points import note_of
 from .restore import answer_id, question_id
 
@@ -22,7 +23,8 @@ class GradesAndNotes(ExportPlugin):
         wanted = set(map(str, self.assignment))
         students = set(map(str, self.student))
         assignments = [found for found in gradebook.assignments if not wanted or found.name in wanted]
-        checks = [cell.name for found in assignments for book in found.notebooks for cell in book.grade_cells]
+        cells = [cell for found in assignments for book in found.notebooks for cell in book.grade_cells]
+        checks = [cell.name for cell in cells if cell.cell_type == "code"]
         columns = [*_ABOUT, *_SCORES, "notes", *(question_id(check) for check in sorted(checks))]
         target = self.to or "grades.csv"
         self.log.info("Exporting grades to %s", target)
@@ -32,7 +34,9 @@ class GradesAndNotes(ExportPlugin):
             for assignment in assignments:
                 for student in sorted(gradebook.students, key=_by_name):
                     if not students or student.id in students:
-                        writer.writerow({key: _cell(value) for key, value in _row(gradebook, assignment, student).items()})
+                        writer.writerow(
+                            {key: spreadsheet_cell(value) for key, value in _row(gradebook, assignment, student).items()}
+                        )
 
 
 def _by_name(student: Student) -> tuple[str, str, str]:
@@ -58,17 +62,9 @@ def _row(gradebook: Gradebook, assignment: Assignment, student: Student) -> dict
 
 
 def results(submission) -> Iterator[tuple[str, float, float, str | None]]:
-    """Grade id, points, greatest points and answer note of each graded cell of a submitted assignment."""
+    """Grade id, points, greatest points and answer note of each question of a submitted assignment, open problems left out."""
     for notebook in submission.notebooks:
         notes = {found.name: note_of(found.auto_comment) for found in notebook.comments}
-        for grade in sorted(notebook.grades, key=lambda grade: grade.name):
+        judged = [grade for grade in notebook.grades if grade.cell.cell_type == "code"]
+        for grade in sorted(judged, key=lambda grade: grade.name):
             yield grade.name, grade.score or 0.0, grade.max_score, notes.get(answer_id(grade.name))
-
-
-def _cell(value: object) -> object:
-    """`value` for a spreadsheet: a text that a spreadsheet would take for a formula gets an apostrophe."""
-    if value is None:
-        return ""
-    if isinstance(value, str) and value[:1] in ("=", "+", "-", "@", "\t", "\r"):
-        return f"'{value}"
-    return value

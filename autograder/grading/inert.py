@@ -1,4 +1,4 @@
-"""Makes what a student's notebook shows harmless: in a browser, in Markdown, in a terminal."""
+"""Makes what a student's notebook shows harmless: in a browser, in Markdown, in a terminal, in a spreadsheet."""
 
 from __future__ import annotations
 
@@ -25,6 +25,15 @@ def terminal_text(text: str, limit: int = 200) -> str:
     """`text` on one line, without control or direction characters, at most `limit` characters."""
     text = _CONTROL.sub(" ", text).strip()
     return text if len(text) <= limit else f"{text[: limit - 3]}..."
+
+
+def spreadsheet_cell(value: object) -> object:
+    """`value` for a spreadsheet: a text that a spreadsheet would take for a formula gets an apostrophe."""
+    if value is None:
+        return ""
+    if isinstance(value, str) and value[:1] in ("=", "+", "-", "@", "\t", "\r"):
+        return f"'{value}"
+    return value
 
 
 def inert_outputs(outputs: Iterable, count: int) -> list[NotebookNode]:

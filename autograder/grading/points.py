@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-_COMMENT = re.compile(r"note: ([a-z0-9_]+)\Z")
+_COMMENT = re.compile(r"note: ([a-z0-9_+]+)\Z")
 
 
 def points(share: float, maximum: float) -> float:

@@ -19,6 +19,7 @@ from traitlets import Enum, Float, Integer
 
 from autograder import questions
 from autograder.judge import Variant, judge
+from autograder.judge.clusters import is_unexplained, keep
 from autograder.sandbox import Limits
 
 from .execution import Execution, execute
@@ -71,7 +72,10 @@ class SandboxExecute(NbGraderPreprocessor):
 
 
 class JudgeAnswers(NbGraderPreprocessor):
-    """Replaces what a check cell displayed by feedback and points, and marks it with note and share."""
+    """Replaces what a check cell displayed by feedback and points, and marks it with note and share.
+
+    An answer in which no misconception was found stays in the cell's metadata: the class report shows what it says.
+    """
 
     def preprocess_cell(self, cell: NotebookNode, resources: dict, index: int) -> tuple[NotebookNode, dict]:
         if not is_check(cell):
@@ -88,6 +92,8 @@ class JudgeAnswers(NbGraderPreprocessor):
         cell.metadata["autograder"] = {"note": verdict.note, "share": verdict.share}
         if evidence.trouble:
             cell.metadata["autograder"]["trouble"] = terminal_text(evidence.trouble)
+        if is_unexplained(verdict.note) and (answer := keep(question.id, evidence.bundle)):
+            cell.metadata["autograder"]["answer"] = answer
         return cell, resources
 
 

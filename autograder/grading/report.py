@@ -1,72 +1,223 @@
-"""How the class did on one exercise: points and answer notes per question."""
+"""How the class did on one exercise: points, answer notes, what each question tells, and which mistakes have no name yet."""
 
 from __future__ import annotations
 
-import csv
+import html
+import re
 from collections import Counter
-from dataclasses import dataclass, field
-from statistics import mean, median
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from statistics import StatisticsError, correlation, mean, median
 
+from dhkit.public import questions as public_questions
 from nbgrader.api import Gradebook, MissingEntry
+
+from autograder import questions
+from autograder.judge import Question
+from autograder.judge.clusters import Attempt, Cluster, cluster, is_unexplained, kept, right_answer
+from autograder.judge.decode import Value
 
 from .course import Course, CourseError
 from .export import results
-from .restore import question_id
+from .inert import terminal_text
+from .restore import grade_id, is_check, question_id
+from .results import graded_notebooks
 
 UNNOTED = "unnoted"
+RIGHT = ("right", "right_from_earlier")
+NOTHING_CAME = (
+    "not_attempted", "no_answer", "error", "timeout", "output_limit", "memory", "died", "unreadable", "not_run", UNNOTED
+)  # fmt: skip
+
+# With fewer submissions a correlation says more about chance than about the question.
+ENOUGH = 5
+# From here on a question tells students apart, and tells them apart well.
+TELLS, TELLS_WELL = 0.2, 0.4
+# From here on a question is marked: this share of the class, or this many students with one and the same wrong answer.
+_MANY, _ALIKE = 1 / 6, 3
 
 
-@dataclass
+@dataclass(frozen=True)
 class QuestionReport:
-    """One question over the class: the points earned and how often each note was given."""
+    """One question over the class.
+
+    Attributes
+    ----------
+    scores : tuple of float
+        Points of each submission.
+    discrimination : float or None
+        Correlation of these points with those of the other questions, None where it says nothing.
+    clusters : tuple of Cluster
+        Wrong answers that no misconception explains, the largest cluster first.
+    """
 
     question: str
+    title: str
     points: float
-    scores: list[float] = field(default_factory=list)
-    notes: Counter = field(default_factory=Counter)
+    scores: tuple[float, ...]
+    notes: Counter[str]
+    discrimination: float | None = None
+    clusters: tuple[Cluster, ...] = ()
 
-    def summary(self) -> dict[str, object]:
-        """One row of the report: plain values, notes by falling frequency."""
-        full = sum(score >= self.points for score in self.scores)
-        none = sum(score == 0 for score in self.scores)
-        return {
-            "question": self.question,
-            "points": self.points,
-            "submissions": len(self.scores),
-            "mean": round(mean(self.scores), 2),
-            "median": round(median(self.scores), 2),
-            "full": full,
-            "partial": len(self.scores) - full - none,
-            "none": none,
-            "notes": "; ".join(f"{note} {count}" for note, count in self.notes.most_common()),
-        }
+    @property
+    def submissions(self) -> int:
+        return len(self.scores)
+
+    @property
+    def mean(self) -> float:
+        return mean(self.scores)
+
+    @property
+    def median(self) -> float:
+        return median(self.scores)
+
+    @property
+    def full(self) -> float:
+        """Share of submissions with all points."""
+        return sum(score >= self.points for score in self.scores) / len(self.scores)
+
+    @property
+    def not_attempted(self) -> float:
+        """Share of submissions that left the question untouched."""
+        return self.notes["not_attempted"] / len(self.scores)
+
+    @property
+    def unexplained(self) -> int:
+        """Wrong answers in which no misconception was found."""
+        return sum(count for note, count in self.notes.items() if is_unexplained(note))
+
+    @property
+    def alike(self) -> int:
+        """Size of the largest cluster of equal wrong answers."""
+        return max((cluster.size for cluster in self.clusters if cluster.alike), default=0)
+
+    @property
+    def right(self) -> Value | None:
+        """The right answer, if some answers are unexplained and it is the same for all of them."""
+        answers = {repr(attempt.right): attempt.right for cluster in self.clusters for attempt in cluster.attempts}
+        return next(iter(answers.values())) if len(answers) == 1 else None
+
+    @property
+    def look_at(self) -> bool:
+        """True if so many wrong answers are unexplained that a misconception may be missing."""
+        return self.unexplained >= max(2, _MANY * len(self.scores)) or self.alike >= _ALIKE
+
+    def discrimination_in_words(self) -> str:
+        """What the discrimination says, in one sentence."""
+        if len(self.scores) < ENOUGH:
+            return f"too few submissions ({len(self.scores)}; {ENOUGH} are needed)."
+        if self.discrimination is None:
+            return "no spread: everybody has the same points, here or in all other questions."
+        if self.discrimination < 0:
+            return "turned round: those who did well elsewhere lost points here. Read the question and its answer again."
+        if self.discrimination < TELLS:
+            return "weak: points here have little to do with points elsewhere. Too easy, too hard, or about something else."
+        if self.discrimination < TELLS_WELL:
+            return "fair: those who did well elsewhere did somewhat better here."
+        return "good: those who did well elsewhere did well here, the others did not."
 
 
-def question_reports(course: Course, exercise: str) -> list[QuestionReport]:
-    """One report per question, in the order of their ids; `CourseError` if nothing was graded yet."""
+@dataclass(frozen=True)
+class ClassReport:
+    """One exercise over the class; `totals` holds the points of each submission."""
+
+    exercise: str
+    totals: tuple[float, ...]
+    questions: tuple[QuestionReport, ...]
+
+    @property
+    def points(self) -> float:
+        return sum(question.points for question in self.questions)
+
+
+def discrimination(scores: Sequence[float], rests: Sequence[float]) -> float | None:
+    """Corrected item-total correlation; where a question is all or nothing, the point-biserial one.
+
+    Parameters
+    ----------
+    scores, rests : sequence of float
+        For each submission the points of the question, and those of all other questions together.
+
+    Returns
+    -------
+    float or None
+        From -1 to 1; None for fewer than `ENOUGH` submissions or if one side is the same for all.
+    """
+    if len(scores) < ENOUGH:
+        return None
+    try:
+        return correlation(scores, [round(rest, 6) for rest in rests])
+    except StatisticsError:
+        return None
+
+
+def class_report(course: Course, exercise: str) -> ClassReport:
+    """What the gradebook and the graded notebooks say about `exercise`; `CourseError` if nothing was graded yet."""
     course.choose(exercise)
-    found: dict[str, QuestionReport] = {}
+    rows: dict[str, dict[str, tuple[float, str]]] = {}
+    points: dict[str, float] = {}
     with Gradebook(course.app.coursedir.db_url, course.app.coursedir.course_id) as gradebook:
         try:
             submissions = gradebook.find_assignment(exercise).submissions
         except MissingEntry:
             submissions = []
         for submission in submissions:
-            for name, score, points, note in results(submission):
-                entry = found.setdefault(name, QuestionReport(question_id(name), points))
-                entry.scores.append(score)
-                entry.notes[note or UNNOTED] += 1
-    if not found:
+            for name, score, most, note in results(submission):
+                if most > 0:
+                    rows.setdefault(submission.student.id, {})[name] = score, note or UNNOTED
+                    points[name] = most
+    if not rows:
         raise CourseError(f"nothing was graded for {exercise} yet; run: autograder grade {exercise}")
-    return [found[name] for name in sorted(found)]
+    attempts = _attempts(course, exercise, rows)
+    order = list(public_questions())
+    names = sorted(
+        points, key=lambda name: (order.index(question_id(name)) if question_id(name) in order else len(order), name)
+    )
+    found = [_question_report(name, points[name], rows, attempts.get(name, [])) for name in names]
+    totals = tuple(sum(score for score, _ in row.values()) for row in rows.values())
+    return ClassReport(exercise, totals, tuple(found))
 
 
-def write_csv(reports: list[QuestionReport], path: str) -> None:
-    """One line per question and note: question, points, submissions, mean, median, note, count."""
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(("question", "points", "submissions", "mean", "median", "note", "count"))
-        for report in reports:
-            row = report.summary()
-            about = [row[key] for key in ("question", "points", "submissions", "mean", "median")]
-            writer.writerows((*about, note, count) for note, count in report.notes.most_common())
+def _question_report(name: str, points: float, rows: dict[str, dict], attempts: list[Attempt]) -> QuestionReport:
+    rows = {student: row for student, row in rows.items() if name in row}
+    scores = tuple(row[name][0] for row in rows.values())
+    rests = [sum(score for other, (score, _) in row.items() if other != name) for row in rows.values()]
+    notes = Counter(row[name][1] for row in rows.values())
+    question, public = _question(name), public_questions().get(question_id(name))
+    return QuestionReport(
+        question_id(name),
+        public.title if public else name,
+        points,
+        scores,
+        notes,
+        discrimination(scores, rests),
+        cluster(question, attempts) if question else (),
+    )
+
+
+def _question(name: str) -> Question | None:
+    try:
+        return questions.find(question_id(name))
+    except KeyError:
+        return None
+
+
+def _attempts(course: Course, exercise: str, rows: dict[str, dict[str, tuple[float, str]]]) -> dict[str, list[Attempt]]:
+    """The unexplained answers of the class by question, as the graded notebooks hold them."""
+    found: dict[str, list[Attempt]] = {}
+    for student, row in rows.items():
+        wanted = {name for name, (_, note) in row.items() if is_unexplained(note)}
+        notebooks = graded_notebooks(course, student, exercise) if wanted else []
+        checks = {grade_id(cell): cell for nb in notebooks for cell in nb.cells if is_check(cell)}
+        for name in sorted(wanted & checks.keys()):
+            question, cell = _question(name), checks[name]
+            answer = kept(question_id(name), cell.metadata.get("autograder", {}).get("answer"))
+            right = right_answer(question, student) if question else None
+            found.setdefault(name, []).append(Attempt(student, _said(cell.outputs), answer, right))
+    return found
+
+
+def _said(outputs: Iterable[dict]) -> str:
+    """What the judge said on a check cell, without Markdown."""
+    feedback = next((output.data.get("text/plain", "") for output in outputs if output.output_type == "display_data"), "")
+    return terminal_text(html.unescape(re.sub(r"\\(.)", r"\1", feedback.replace("**", ""))), 400)

@@ -12,8 +12,11 @@ from rich.table import Table
 
 from .course import Course
 from .inert import terminal_text
-from .report import QuestionReport
+from .report import ENOUGH, ClassReport, QuestionReport
 from .results import Result, relative
+
+# So many notes of a question stand in the report's table; the page shows all.
+_NOTES = 4
 
 
 @contextmanager
@@ -51,12 +54,34 @@ def summary(course: Course, results: Sequence[Result]) -> None:
         print(f"feedback: {relative(step, course.root)}/*.html, for example {terminal_text(pages[0], 1000)}")
 
 
-def report_table(reports: Sequence[QuestionReport]) -> None:
-    """One line per question: points and notes by frequency."""
-    table = Table("question", "points", "n", "mean", "median", "full", "part", "none", "notes")
-    for report in reports:
-        table.add_row(*(_cell(str(value)) for value in report.summary().values()))
+def report_table(report: ClassReport) -> None:
+    """One line per question: points, what it tells, the most frequent notes, and where a misconception may be missing."""
+    table = Table("question", "mean", "full", "discrimination", "notes", "look at")
+    for column in table.columns[1:4]:
+        column.justify = "right"
+    for question in report.questions:
+        notes = question.notes.most_common()
+        said = "; ".join(f"{note} {count}" for note, count in notes[:_NOTES])
+        more = f"; and {len(notes) - _NOTES} more" if len(notes) > _NOTES else ""
+        table.add_row(
+            *map(_cell, (question.question, f"{question.mean:.2f}/{question.points:g}", f"{question.full:.0%}")),
+            _discrimination(question),
+            _cell(f"{said}{more}"),
+            _look_at(question),
+        )
     _console().print(table)
+
+
+def _discrimination(question: QuestionReport) -> str:
+    if question.discrimination is not None:
+        return f"{question.discrimination:.2f}"
+    return "too few" if question.submissions < ENOUGH else "no spread"
+
+
+def _look_at(question: QuestionReport) -> str:
+    if not question.look_at:
+        return ""
+    return f"{question.unexplained} unexplained" + (f", {question.alike} alike" if question.alike > 1 else "")
 
 
 def _console() -> Console:

@@ -91,6 +91,7 @@ def test_no_other_share_becomes_points(share):
 
 def test_a_note_survives_the_gradebook():
     assert note_of(comment("sign_of_d2")) == "sign_of_d2"
+    assert note_of(comment("degrees+sign_of_d2")) == "degrees+sign_of_d2"
     assert note_of("No response.") is None and note_of(None) is None and note_of("note: <b>") is None
 
 
