@@ -9,6 +9,9 @@ from pathlib import Path
 from .course import CourseError
 
 FOLDERS = ("course", "exercises")
+FOR_LECTURERS = ("course/13_errata.ipynb",)
+"""Notebooks that stay with the lecturer: they answer "find the slide's error" and import the autograder."""
+
 _LEFT_OUT = {"__pycache__", ".ipynb_checkpoints", ".pytest_cache"}
 _MARKS = ("BEGIN SOLUTION", "END SOLUTION", "BEGIN HIDDEN TESTS")
 _EPOCH = (1980, 1, 1, 0, 0, 0)
@@ -40,6 +43,7 @@ def write_bundle(root: Path, target: Path) -> list[str]:
         If there is nothing to hand out, or a file would give a solution away; nothing is written then.
     """
     files = {path.relative_to(root).as_posix(): path for folder in FOLDERS for path in _files(root / folder)}
+    files = {name: path for name, path in files.items() if name not in FOR_LECTURERS}
     if not any(name.startswith("exercises/") and name.endswith(".ipynb") for name in files):
         raise CourseError("there are no exercises to hand out; run: autograder release")
     for name, path in files.items():

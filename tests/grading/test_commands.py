@@ -18,6 +18,7 @@ import pytest
 
 from autograder import cli
 from autograder.grading import doctor
+from autograder.grading.bundle import FOR_LECTURERS
 
 
 def run(root, *words):
@@ -190,6 +191,8 @@ def with_kit(course_copy, small):
     kit = course_copy / "course/dhkit"
     kit.mkdir(parents=True)
     (kit / "check.py").write_text("def check(): ...\n")
+    for name in FOR_LECTURERS:
+        (course_copy / name).write_text('{"cells": []}')
     (kit / "__pycache__").mkdir()
     (kit / "__pycache__/check.pyc").write_text("")
     (course_copy / "course/dhkit.egg-info").mkdir()
@@ -234,6 +237,7 @@ def test_the_repositorys_own_bundle_holds_no_solution(small, tmp_path):
             if "### BEGIN SOLUTION" in cell.source:
                 lines |= {line.strip() for line in cell.source.partition("### BEGIN SOLUTION")[2].splitlines()}
     with zipfile.ZipFile(target) as archive:
+        assert not {f"robots/{name}" for name in FOR_LECTURERS} & set(archive.namelist())
         for name in archive.namelist():
             assert name.split("/")[1] in ("README.md", "course", "exercises")
             if name.startswith("robots/exercises/"):

@@ -81,3 +81,11 @@ def test_agreement_notices_a_single_sign_and_shapes():
     assert not agree(x, y)
     assert assembled([[sp.eye(2), sp.zeros(2, 1)], [sp.zeros(1, 2), 1]]) == sp.eye(3)
     assert assembled([[sp.eye(2), 1]]) is None and assembled([[sp.eye(2)], [1]]) is None
+
+
+def test_the_page_shows_every_statement_and_says_when_a_proof_fails():
+    page = errata.as_html(ALL)
+    assert page.count("<tr>") == 1 + len(ALL) and page.count("<b>proved</b>") == len(ALL)
+    fooled = replace(errata.find("004-app-sin"), printed="a < b")
+    fooled = replace(fooled, check=with_roles(fooled.check, [True, True]))
+    assert "a &lt; b" in errata.as_html([fooled]) and "NOT PROVED" in errata.as_html([fooled])

@@ -10,6 +10,7 @@ ambiguity "printed fails" means that the readings said to be wrong are wrong.
 """
 
 from . import adept_s600, dhm_slides, epfl, meca953, pen_robot
+from .page import as_html
 from .proof import Check, Erratum, Proof, Reading
 
 _DOCUMENTS = (meca953, epfl, dhm_slides, pen_robot, adept_s600)
@@ -29,4 +30,4 @@ def find(id: str) -> Erratum:
     return known[id]
 
 
-__all__ = ["AMBIGUITIES", "Check", "ERRORS", "Erratum", "Proof", "Reading", "find"]
+__all__ = ["AMBIGUITIES", "Check", "ERRORS", "Erratum", "Proof", "Reading", "as_html", "find"]
