@@ -72,7 +72,7 @@ def chain_frames(rows, values=None) -> np.ndarray:
 # ---------------------------------------------------------------- bodies: quads that one collection sorts by depth
 
 
-class _Bodies:
+class Bodies:
     """Quads of tubes, balls and boxes with a shade each, seen from one direction and drawn with an ink outline."""
 
     def __init__(self, ax, unit, fine=16):
@@ -442,7 +442,7 @@ def draw_chain(
     robot = _Robot(table, tool)
     size = robot.unit * 0.15 if size is None else float(strokes.as_lengths(size, "size", ()))
     own, ax = ax is None, ax or strokes.new_axes_3d()
-    bodies = _Bodies(ax, robot.unit)
+    bodies = Bodies(ax, robot.unit)
     grey = LINK if shade is None else to_rgb(strokes.POSTURE_SHADES[shade % len(strokes.POSTURE_SHADES)])
     robot.build(bodies, link=grey)
     bodies.draw(ax)
@@ -493,6 +493,9 @@ def _draw_axes(ax, robot, labels, names, shown, size):
         ends.append(np.array([low, high]))
         hidden = [i for i in members if i not in shown]
         if hidden:
+            strokes.arrow_3d(
+                ax, high - 0.6 * size * along, high, strokes.AXIS_COLOURS["z"], strokes.AXIS_DASHES["z"], width=1.4
+            )
             text = ", ".join(f"Z_{{{names[i]}}}" for i in hidden)
             labels.ask(high, f"${text}$", along, strokes.AXIS_COLOURS["z"])
     return ends
@@ -591,7 +594,7 @@ def draw_chain_postures(rows, joints, solutions, values=None, ax=None, *, tool=F
     numbers: dict[tuple, list] = {}
     for k, (robot, shade) in enumerate(zip(robots, shades)):
         # One collection per posture: where two share a link, the later one lies on top.
-        bodies = _Bodies(ax, unit, fine=12)
+        bodies = Bodies(ax, unit, fine=12)
         robot.build(bodies, link=to_rgb(shade), joint=to_rgb(shade), hand=to_rgb(shade))
         bodies.draw(ax, 1 + 0.01 * k)
         extent.append(bodies.points())
