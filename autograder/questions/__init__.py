@@ -13,18 +13,28 @@ from functools import lru_cache
 from autograder.judge import Question
 
 
+def names() -> list[str]:
+    """The exercises there are."""
+    return sorted(module.name for module in pkgutil.iter_modules(__path__))
+
+
 @lru_cache(maxsize=None)
+def of_exercise(name: str) -> tuple[Question, ...]:
+    """The questions of one exercise, in the order of its module."""
+    return importlib.import_module(f"{__name__}.{name}").QUESTIONS
+
+
 def exercises() -> dict[str, tuple[Question, ...]]:
-    """The questions of every exercise, in the order of their module."""
-    names = sorted(module.name for module in pkgutil.iter_modules(__path__))
-    return {name: importlib.import_module(f"{__name__}.{name}").QUESTIONS for name in names}
+    """The questions of every exercise."""
+    return {name: of_exercise(name) for name in names()}
 
 
 def find(id: str) -> Question:
     """The question called `id`; a `KeyError` names the nearest ones."""
-    known = {question.id: question for questions in exercises().values() for question in questions}
+    exercise = id.partition(".")[0]
+    known = {question.id: question for name in names() if name == exercise for question in of_exercise(name)}
     try:
         return known[id]
     except KeyError:
-        near = difflib.get_close_matches(id, known, n=3) or list(known)
+        near = difflib.get_close_matches(id, known or names(), n=3) or list(known) or names()
         raise KeyError(f"there is no question {id!r}; there are {', '.join(near)}") from None

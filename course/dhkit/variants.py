@@ -25,7 +25,7 @@ def numbers(exercise: str, student: str) -> dict[str, float | str]:
 
 
 def _pick(range_: tuple, text: str) -> float | str:
-    chance = int.from_bytes(hashlib.sha256(text.encode()).digest()[:8])
+    chance = int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "big")
     if isinstance(range_[0], str):
         return range_[chance % len(range_)]
     lowest, highest, step = range_

@@ -3,9 +3,10 @@
 import random
 
 import pytest
+from dhkit import wire
+
 from autograder.judge import Evidence, Variant, judge
 from autograder.questions import exercises
-from dhkit import wire
 
 QUESTIONS = [question for questions in exercises().values() for question in questions]
 VARIANT = Variant("ada")

@@ -9,8 +9,9 @@ right on a set of measure zero without being right everywhere, does not pass; on
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 import numpy as np
 from dhkit.forms import array_shape
@@ -19,6 +20,8 @@ from dhkit.public import PublicQuestion
 from ..decode import Blank, Expression
 from ..evaluate import evaluate, evaluate_exactly, size, symbols
 from .base import Comparison, Setting, describe, in_order, refuse
+
+T = TypeVar("T")
 
 # An answer that is larger than this is not recomputed with many digits: bounded time counts for more.
 MAX_EXACT_NODES = 3000
@@ -38,17 +41,25 @@ class Entries:
 
     expressions: tuple[Expression | Blank, ...] = ()
     known: np.ndarray | None = None
-    _kept: dict[int, tuple[Mapping, np.ndarray]] = field(default_factory=dict, repr=False)
+    _kept: dict = field(default_factory=dict, repr=False)
 
     def values(self, points: Mapping[str, np.ndarray]) -> np.ndarray:
         """Complex values at N points, (N, m), computed once; nan where nothing was filled in or nothing is defined."""
         if self.known is not None:
             return self.known
-        if id(points) not in self._kept:
+
+        def evaluated() -> np.ndarray:
             count = len(next(iter(points.values()), np.zeros(1)))
             columns = [np.full(count, np.nan) if isinstance(e, Blank) else evaluate(e, points) for e in self.expressions]
-            self._kept[id(points)] = points, np.stack(columns, axis=1).astype(complex)
-        return self._kept[id(points)][1]
+            return np.stack(columns, axis=1).astype(complex)
+
+        return self.once("values", points, evaluated)
+
+    def once(self, what: str, points: Mapping[str, np.ndarray], make: Callable[[], T]) -> T:
+        """What `make` returns; made once for the same sample points, as one answer is compared with many."""
+        if (kept := self._kept.get(what)) is None or kept[0] is not points:
+            kept = self._kept[what] = points, make()
+        return kept[1]
 
 
 def checked(question: PublicQuestion, values: tuple) -> Entries:
@@ -186,7 +197,7 @@ def compare_transform(question: PublicQuestion, student: Entries, other: Entries
 
 
 def _cells(agree: np.ndarray) -> tuple[str, ...]:
-    wrong = [f"({i + 1}, {j + 1})" for i, j in np.argwhere(~agree)]
+    wrong = [f"({', '.join(map(str, place + 1))})" for place in np.argwhere(~agree)]
     if not wrong:
         return ()
     more = ", ..." if len(wrong) > 6 else ""

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import numpy as np
 from dhkit.forms import array_shape
 from dhkit.public import DH_COLUMNS, PublicQuestion
 
-from ..chains import Chain, NotAChain, same_chain
+from ..chains import SAME_MODEL, Chain, NotAChain, same_chain
 from .base import Comparison, Setting, describe, in_order, refuse
 from .entries import Entries, agreement, checked, flat
 
@@ -26,11 +27,10 @@ def compare_table(question: PublicQuestion, student: Entries, other: Entries, se
     cells = _compare_cells(student, other, setting)
     if cells.equal:
         return cells
-    try:
-        mine, theirs = (Chain.of_entries(entries.expressions, question.joints, setting.points) for entries in (student, other))
-        match = same_chain(mine, theirs, pinned=setting.pinned)
-    except NotAChain:
+    mine, theirs = (_chain(entries, question, setting) for entries in (student, other))
+    if mine is None or theirs is None or (not setting.patient and _ends_apart(mine, theirs, setting)):
         return cells
+    match = same_chain(mine, theirs, pinned=setting.pinned)
     if match.equal:
         return Comparison(True, 1.0, tuple(f"another {used}" for used in match.freedoms))
     if match.parting:
@@ -38,6 +38,24 @@ def compare_table(question: PublicQuestion, student: Entries, other: Entries, se
         remarks = cells.remarks if cells.note else (where,)
         return Comparison(False, cells.share, remarks, cells.note)
     return Comparison(False, 1.0, match.remarks, "same_chain_other_frames")
+
+
+def _chain(entries: Entries, question: PublicQuestion, setting: Setting) -> Chain | None:
+    def read() -> Chain | None:
+        try:
+            return Chain.of_entries(entries.expressions, question.joints, setting.points)
+        except NotAChain:
+            return None
+
+    return entries.once("chain", setting.points, read)
+
+
+def _ends_apart(mine: Chain, theirs: Chain, setting: Setting) -> bool:
+    """A cheap no: where base, tool and joint variables are pinned, the hands must be in the same place at q = 0."""
+    if not SAME_MODEL <= setting.pinned:
+        return False
+    size = max(1.0, float(np.abs(theirs.end).max()))
+    return bool(np.abs(mine.end - theirs.end).max() > 10 * setting.tolerance * size)
 
 
 def _compare_cells(student: Entries, other: Entries, setting: Setting) -> Comparison:

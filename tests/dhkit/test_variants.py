@@ -1,0 +1,72 @@
+"""Numbers of one's own: the same on every machine, different from student to student, never outside their range."""
+
+import importlib
+import subprocess
+import sys
+
+import pytest
+from dhkit import public, variants, wire
+from dhkit.variants import numbers, variant
+
+RANGES = {"L1": (0.4, 0.6, 0.02), "x": (-0.3, 0.3, 0.1), "elbow": ("up", "down")}
+
+
+@pytest.fixture(autouse=True)
+def ranges(monkeypatch):
+    monkeypatch.setattr(variants, "variant_ranges", lambda exercise: RANGES if exercise == "arm" else {})
+    monkeypatch.setattr(variants, "_typed", {})
+
+
+def test_the_numbers_of_a_student_never_change():
+    """Written down once: a change of machine, of Python or of this code that moves them would make a class's answers wrong."""
+    assert numbers("arm", "ada") == {"L1": 0.56, "x": 0.1, "elbow": "up"}
+    assert numbers("arm", "Emmy Noether") == {"L1": 0.54, "x": 0.0, "elbow": "down"}
+    assert numbers("arm", "学生") == {"L1": 0.4, "x": 0.1, "elbow": "up"}
+
+
+def test_a_fresh_process_with_another_hash_seed_finds_the_same():
+    code = "from dhkit import variants; variants.variant_ranges = lambda _: {'a': (0.0, 1000.0, 1.0)}; print(variants.numbers('arm', 'ada'))"
+    found = {subprocess.run([sys.executable, "-c", code], env={"PYTHONHASHSEED": seed}, capture_output=True, text=True, check=True).stdout for seed in "17"}
+    assert len(found) == 1
+
+
+def test_numbers_stay_in_their_range_and_use_all_of_it():
+    seen = {name: {numbers("arm", f"student-{k}")[name] for k in range(300)} for name in RANGES}
+    assert seen["L1"] == {round(0.4 + 0.02 * k, 9) for k in range(11)}
+    assert seen["x"] == {round(-0.3 + 0.1 * k, 9) for k in range(7)}
+    assert seen["elbow"] == {"up", "down"}
+
+
+def test_spaces_around_an_id_do_not_matter():
+    assert numbers("arm", " ada ") == numbers("arm", "ada") != numbers("arm", "bob")
+
+
+def test_numbers_are_read_by_name_and_shown():
+    mine = variant("arm", "ada")
+    assert mine.L1 == mine["L1"] and "ada" in mine._repr_markdown_() and "L1" in mine._repr_markdown_()
+    with pytest.raises(AttributeError, match="no number 'L9'; there are L1, x, elbow"):
+        mine.L9
+
+
+def test_without_an_id_they_are_nobodys():
+    assert variant("arm") == variant("arm", ...) == numbers("arm", variants.NOBODY)
+    assert "Nobody" in variant("arm")._repr_markdown_()
+    with pytest.raises(ValueError, match='for example "ada"; found 17'):
+        variant("arm", 17)
+
+
+def test_check_tells_the_grader_which_id_was_typed(monkeypatch):
+    sent, check = [], importlib.import_module("dhkit.check")
+    monkeypatch.setattr(check, "show", lambda report, data=None: sent.append(data[wire.MIME]))
+    check.check("planar_2r.centre", "A")
+    assert "student" not in sent[-1]
+    variant("planar_2r", "ada")
+    check.check("planar_2r.centre", "A")
+    assert sent[-1]["student"] == "ada"
+
+
+@pytest.mark.parametrize("range_", [[1, 0, 0.1], [0, 1], [0, 1, -1], [], ["a", 1]])
+def test_a_range_that_makes_no_sense_is_named(range_, monkeypatch):
+    monkeypatch.setattr(public, "_files", lambda: {"arm": {"variant": {"L1": range_}}})
+    with pytest.raises(ValueError, match="arm.toml: variant.L1"):
+        public.variant_ranges("arm")

@@ -1,0 +1,240 @@
+"""What only a verdict can know: whose numbers, what went wrong before, which freedoms, how far off."""
+
+import numpy as np
+import pytest
+import sympy
+from autograder.judge import Evidence, Family, Question, Variant, following, judge, mistake
+from autograder.questions import find
+from dhkit import public, variants, wire
+from dhkit.public import PublicQuestion
+
+t1, t2, L1, L2, a2, a3, d2, t4 = sympy.symbols("t1 t2 L1 L2 a2 a3 d2 t4")
+ADA, BOB = Variant("ada"), Variant("bob")
+FORMS = {
+    "arm.reach": PublicQuestion("arm.reach", "", "number", "one number"),
+    "arm.both": PublicQuestion("arm.both", "", "joint_solutions", "a list of all (t1, t2)", joints=("t1", "t2")),
+    "arm.angles": PublicQuestion("arm.angles", "", "orientation", "three angles", shape=(3,), axes="zyx", names=("psi", "theta", "phi")),
+    "arm.fixed": PublicQuestion("arm.fixed", "", "orientation", "three angles", shape=(3,), axes="xyz", frames="fixed"),
+    "arm.free": PublicQuestion("arm.free", "", "direction", "a direction", shape=(2,)),
+    "arm.cloud": PublicQuestion("arm.cloud", "", "points", "a list of points", shape=(2,)),
+    "arm.T": PublicQuestion("arm.T", "", "transform", "a 4x4 matrix", shape=(4, 4)),
+}
+
+
+@pytest.fixture(autouse=True)
+def arm(monkeypatch):
+    """An exercise of our own: nothing here depends on the questions of the course."""
+    known = {**public.questions(), **FORMS}
+    monkeypatch.setattr(public, "find", lambda id: known[id])
+    monkeypatch.setattr(variants, "variant_ranges", lambda exercise: {"L1": (0.1, 100.0, 0.1)} if exercise == "arm" else {})
+
+
+def evidence(id, answer, **whose):
+    return Evidence(wire.bundle(id, answer=wire.encode(answer), **whose))
+
+
+def judged(question, answer, variant=ADA, earlier=None, **whose):
+    return judge(question, evidence(question.id, answer, **whose), variant, earlier)
+
+
+# ---------------------------------------------------------------- numbers of one's own
+
+REACH = Question(
+    "arm.reach",
+    reference=lambda variant: 2 * variant.numbers("arm")["L1"],
+    mistakes=(mistake("halved", 0.5, "**Half of it.** With your L1 = {L1} m the arm is longer; {this} stays.", lambda reach: reach / 2),),
+)
+
+
+def test_a_copied_answer_is_wrong_in_another_notebook():
+    mine, theirs = (2 * one.numbers("arm")["L1"] for one in (ADA, BOB))
+    assert judged(REACH, mine).note == "right"
+    assert judged(REACH, theirs).share == 0
+    assert judged(REACH, theirs, student="ada").share == 0
+
+
+def test_an_answer_for_the_id_that_was_typed_is_told_apart():
+    theirs = 2 * BOB.numbers("arm")["L1"]
+    found = judged(REACH, theirs, student="bob")
+    assert (found.note, found.share) == ("numbers_of_another_student", 0)
+    assert "the id bob" in found.feedback
+    assert judged(REACH, 2 * ADA.numbers("arm")["L1"], student="bob").note == "right"
+    assert judged(REACH, 1.234, student="bob").note == "nothing_matched"
+    assert "nobody" in judged(REACH, 2 * Variant(variants.NOBODY).numbers("arm")["L1"], student=variants.NOBODY).feedback
+
+
+@pytest.mark.parametrize("typed", [17, ["bob"], {"a": 1}, "x" * 5000])
+def test_a_forged_id_is_malformed(typed):
+    assert judged(REACH, 1.0, student=typed).note == "malformed"
+
+
+def test_feedback_uses_the_students_own_numbers():
+    for variant in (ADA, BOB):
+        length = variant.numbers("arm")["L1"]
+        found = judged(REACH, length, variant)
+        assert found.note == "halved" and f"your L1 = {length} m" in found.feedback and "{this} stays" in found.feedback
+
+
+# ---------------------------------------------------------------- errors carried over
+
+ROWS = [[0, 0, 0, 0, t1], [0, a2, 0, 0, t2], [1, a3, 0, -d2, 0], [0, 0, 0, 0, t4]]
+
+
+def hand(rows):
+    result = sympy.eye(4)
+    for _, a, alpha, d, theta in rows:
+        for axis, shift, angle in ((0, a, alpha), (2, d, theta)):
+            turn = sympy.Matrix(sympy.rot_axis1(-angle) if axis == 0 else sympy.rot_axis3(-angle))
+            result = result * turn.row_join(sympy.Matrix([shift if k == axis else 0 for k in range(3)])).col_join(sympy.Matrix([[0, 0, 0, 1]]))
+    return result
+
+
+def test_the_right_product_of_a_wrong_table_earns_the_points_of_the_product():
+    wrong = [ROWS[0], [0, a3, 0.3, 0, t2 + 1], *ROWS[2:]]
+    before = {"scara.table": evidence("scara.table", wrong)}
+    assert judged(find("scara.table"), wrong).share < 1
+    product = hand(wrong)
+    assert judged(find("scara.T04"), product).share < 1
+    found = judged(find("scara.T04"), product, earlier=before)
+    assert (found.note, found.share) == ("right_from_earlier", 1.0)
+    model = [*product[:3, 3], t1 + t2 + t4 + 1]
+    assert judged(find("scara.model"), [*hand(ROWS)[:3, 3], t1 + t2 + t4], earlier=before).note == "right"
+    assert judged(find("scara.model"), model).share < 1
+
+
+def test_another_product_than_that_of_the_table_is_still_wrong():
+    wrong = [ROWS[0], [0, a3, 0.3, 0, t2 + 1], *ROWS[2:]]
+    product = hand(wrong)
+    product[0, 3] += a2 / 10
+    found = judged(find("scara.T04"), product, earlier={"scara.table": evidence("scara.table", wrong)})
+    assert found.share < 1
+
+
+@pytest.mark.parametrize("table", [None, "text", [[...] * 5] * 4, [[1 / sympy.Symbol("t1")] * 5] * 4, {"a": 1}])
+def test_an_earlier_answer_that_says_nothing_forgives_nothing(table):
+    assert judged(find("scara.T04"), sympy.eye(4), earlier={"scara.table": evidence("scara.table", table)}).share < 1
+    assert judged(find("scara.T04"), sympy.eye(4), earlier={"scara.table": Evidence(None)}).share < 1
+
+
+def test_the_product_of_a_table_follows_from_its_values():
+    rows = np.random.default_rng(4).uniform(-1, 1, (3, 4, 5))
+    for found, row in zip(following.product_of_table(rows), rows, strict=True):
+        assert np.allclose(found, np.array(hand(row.tolist()), dtype=float))
+
+
+# ---------------------------------------------------------------- sets of solutions
+
+
+def misses(q, variant):
+    return np.hypot(np.cos(q[:, 0]) + np.cos(q.sum(axis=1)) - 1, np.sin(q[:, 0]) + np.sin(q.sum(axis=1)) - 1)
+
+
+BOTH = Question("arm.both", reference=lambda _: [[0, np.pi / 2], [np.pi / 2, -np.pi / 2]], angles=(0, 1), misses=misses)
+FREE = Question(
+    "arm.both", reference=lambda _: Family([[0, np.pi]]), angles=(0, 1),
+    misses=lambda q, variant: np.hypot(np.cos(q[:, 0]) + np.cos(q.sum(axis=1)), np.sin(q[:, 0]) + np.sin(q.sum(axis=1))),
+)  # fmt: skip
+
+
+def test_missing_and_wrong_solutions_are_told_apart_and_measured():
+    assert judged(BOTH, [[0, np.pi / 2], [np.pi / 2, -np.pi / 2]]).note == "right"
+    assert "1 of 2 solutions missing" in judged(BOTH, [[0, np.pi / 2]]).feedback
+    wrong = judged(BOTH, [[0, np.pi / 2], [np.pi / 2, -np.pi / 2], [0, 0]]).feedback
+    assert "1 of the 3 given misses the target, by up to 1.41" in wrong and "missing" not in wrong
+
+
+def test_a_single_solution_may_be_keyed_by_joint_names():
+    assert "1 of 2 solutions missing" in judged(BOTH, {"t2": np.pi / 2, "t1": 0}).feedback
+    assert judged(BOTH, [{"t2": np.pi / 2, "t1": 0}, {"t1": np.pi / 2, "t2": -np.pi / 2}]).note == "right"
+    assert "keys t1, t3" in judged(BOTH, {"t1": 0, "t3": 1}).feedback
+
+
+def test_of_infinitely_many_solutions_every_valid_one_is_right():
+    for q in ([[0.7, np.pi]], [[-2, np.pi], [1, -np.pi], [3, 3 * np.pi]]):
+        assert judged(FREE, q).note == "right"
+    assert judged(FREE, [[0.7, 3.0]]).share == 0
+    assert "gives none" in judged(FREE, []).feedback
+    assert "1 of the 2 given misses" in judged(FREE, [[0.7, np.pi], [0, 1]]).feedback
+
+
+def test_an_unreachable_target_has_no_solution():
+    nothing = Question("arm.both", reference=lambda _: [], angles=(0, 1), misses=misses)
+    assert judged(nothing, []).note == "right"
+    assert "no solution here" in judged(nothing, [[0, 1]]).feedback
+
+
+# ---------------------------------------------------------------- orientations, directions, clouds, transforms
+
+
+def test_both_triples_of_a_rotation_are_right_and_the_error_is_told_in_degrees():
+    question = Question("arm.angles", reference=lambda _: [0.3, 0.5, -0.4])
+    for answer in ([0.3, 0.5, -0.4], [0.3 - np.pi, np.pi - 0.5, np.pi - 0.4], {"phi": -0.4, "psi": 0.3, "theta": 0.5}):
+        assert judged(question, answer).note == "right"
+    assert "10 deg" in judged(question, [0.3, 0.5, -0.4 + np.radians(10)]).feedback
+    assert judged(question, [0.3, 0.5, 1j]).share == 0
+
+
+def test_at_gimbal_lock_every_triple_of_the_family_is_right():
+    question = Question("arm.angles", reference=lambda _: [0.3, np.pi / 2, 0.0])
+    for shift in (-2.0, 0.4, 1.0):
+        assert judged(question, [0.3 + shift, np.pi / 2, shift]).note == "right"
+        assert judged(question, [0.3 + shift, np.pi / 2, -shift]).share == 0
+
+
+def test_fixed_axes_are_not_moving_ones():
+    moving, fixed = Question("arm.angles", reference=lambda _: [0.3, 0.5, -0.4]), Question("arm.fixed", reference=lambda _: [-0.4, 0.5, 0.3])
+    assert judged(moving, [0.3, 0.5, -0.4]).note == judged(fixed, [-0.4, 0.5, 0.3]).note == "right"
+    assert judged(fixed, [0.3, 0.5, -0.4]).share == 0
+
+
+def test_a_direction_has_neither_length_nor_sense():
+    question = Question("arm.free", reference=lambda _: [1, -1])
+    for answer in ([1, -1], [-3, 3], [0.1, -0.1]):
+        assert judged(question, answer).note == "right"
+    assert "90 deg" in judged(question, [1, 1]).feedback
+    assert "zeros" in judged(question, [0, 0]).feedback
+
+
+def ring(inner, outer, count=3000):
+    rng = np.random.default_rng(2)
+    r, angle = np.sqrt(rng.uniform(inner**2, outer**2, count)), rng.uniform(-np.pi, np.pi, count)
+    return np.column_stack([r * np.cos(angle), r * np.sin(angle)])
+
+
+def test_a_cloud_is_judged_by_what_it_covers_and_what_it_has_outside():
+    question = Question("arm.cloud", reference=lambda _: ring(0.5, 1), tolerance=0.08)
+    assert judged(question, ring(0.5, 1, 2000)[::-1]).note == "right"
+    assert "covers" in judged(question, ring(0.5, 0.8)).feedback
+    outside = judged(question, ring(0.0, 1))
+    assert "lie where the robot cannot be" in outside.feedback and outside.share < 1
+    for odd in ([[0, 0, 0]], [[0, np.nan]], [[0, 1j]], [[0, "a"]], [[t1, 0]], np.zeros((6000, 2))):
+        assert judged(question, odd).note == "malformed"
+    assert judged(question, np.zeros((1, 2))).share == 0
+
+
+def test_the_error_of_a_transform_is_told_in_degrees_and_metres():
+    right = np.eye(4)
+    question = Question("arm.T", reference=lambda _: right)
+    moved, turned = right.copy(), right.copy()
+    moved[:3, 3] = 0.3, 0, 0.4
+    turned[:3, :3] = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
+    assert "position is off by up to 0.5 m" in judged(question, moved).feedback and "the rotation is right" in judged(question, moved).feedback
+    assert "rotation is off by up to 90 deg" in judged(question, turned).feedback and judged(question, turned).share == 0.5
+    bent = right.copy()
+    bent[0, 1] = 0.2
+    assert "no rotation" in judged(question, bent).feedback
+    last = right.copy()
+    last[3, 0] = 1
+    assert "last row" in judged(question, last).feedback and judged(question, last).share < 1
+
+
+def test_cancellation_never_fails_a_right_answer():
+    question = find("planar_2r.cos_theta2")
+    x, y = sympy.symbols("x y")
+    right = (x**2 + y**2 - L1**2 - L2**2) / (2 * L1 * L2)
+    big = sympy.Integer(10) ** 18
+    spoiled = sympy.Add(sympy.Mul(big, x + 1, evaluate=False), sympy.Mul(-big, x, evaluate=False), -big, right, evaluate=False)
+    assert judged(question, spoiled).note == "right"
+    assert judged(question, spoiled + sympy.Rational(1, 1000)).share < 1
+
+

@@ -1,0 +1,175 @@
+"""Answers to any question there is: right ones in other forms, and wrong ones by a visible amount."""
+
+import numpy as np
+import sympy
+from dhkit import wire
+from dhkit.public import DH_COLUMNS
+from scipy.spatial.transform import Rotation
+
+from autograder.judge import Evidence, Family, Variant, judge
+
+VARIANT = Variant("ada")
+
+
+def right(question):
+    """The reference, as a student would write it."""
+    answer = question.reference(VARIANT)
+    return answer.solutions if isinstance(answer, Family) else answer
+
+
+def evidence(question, answer):
+    """What the sandbox would find if a student handed in `answer`."""
+    if question.public.kind != "function":
+        return Evidence(wire.bundle(question.id, answer=wire.encode(answer)))
+    probes, results = question.probes(VARIANT, 7), []
+    for args in probes:
+        try:
+            found = answer(*args)
+            results.append(wire.encode(getattr(found, "solutions", found)))
+        except Exception as error:
+            results.append({"error": str(error)})
+    handed_in = wire.bundle(question.id, answer={"function": "f"})
+    return Evidence(handed_in, (probes, wire.bundle(question.id, probes=results)))
+
+
+def verdict(question, answer):
+    return judge(question, evidence(question, answer), VARIANT)
+
+
+def entries(answer):
+    """The answer as nested lists of SymPy expressions."""
+    if isinstance(answer, str):
+        return answer
+    rows = np.array(sympy.Matrix(answer).tolist() if isinstance(answer, sympy.MatrixBase) else answer, dtype=object)
+    return np.vectorize(sympy.sympify, otypes=[object])(rows)
+
+
+def keyed(names, row):
+    return dict(reversed(list(zip(names, row, strict=True))))
+
+
+def other_forms(question):
+    """The reference written in other ways that a student may use: at least five of them for every kind but choices."""
+    answer, kind, form = right(question), question.public.kind, question.public
+    if kind == "choice":
+        return {"lower case": answer.lower(), "spaces": f" {answer}\n"}
+    if kind == "points":
+        cloud = np.array(answer, dtype=float)
+        shuffled = np.random.default_rng(3).permutation(cloud)
+        return {
+            "other order": shuffled,
+            "lists": cloud.tolist(),
+            "tuples": tuple(map(tuple, cloud.tolist())),
+            "twice": np.vstack([cloud, cloud])[:5000] if len(cloud) <= 2500 else shuffled,
+            "rounded": np.round(cloud, 6),
+        }
+    if kind == "joint_solutions":
+        solutions = np.array(answer, dtype=float).reshape(-1, len(form.joints))
+        turned = solutions.copy()
+        turned[:, list(question.angles)] += 2 * np.pi
+        return {
+            "other order": solutions[::-1],
+            "a turn further": turned,
+            "twice": np.vstack([solutions, solutions]),
+            "list of tuples": [tuple(row) for row in solutions],
+            "sympy matrix": sympy.Matrix(solutions.tolist()) if len(solutions) else [],
+            "rounded": np.round(solutions, 4) if question.tolerance >= 1e-4 else solutions.tolist(),
+            "by name": [keyed(form.joints, row) for row in solutions],
+        }
+    entry = entries(answer)
+    change = lambda f: np.vectorize(f, otypes=[object])(entry)  # noqa: E731
+    forms = {
+        "nested lists": entry.tolist(),
+        "array of objects": entry,
+        "expanded": change(lambda e: sympy.expand(e, trig=True)),
+        "exponentials": change(lambda e: e.rewrite(sympy.exp)),
+        "floats": change(lambda e: e.evalf(12)),
+        "unevaluated sum": change(lambda e: sympy.Add(e, 3, -3, evaluate=False)),
+        "together": change(sympy.together),
+    }
+    if entry.ndim == 2:
+        forms["sympy matrix"] = sympy.Matrix(entry.tolist())
+        forms["immutable matrix"] = sympy.ImmutableMatrix(entry.tolist())
+        forms["tuples"] = tuple(map(tuple, entry.tolist()))
+    elif entry.ndim == 1:
+        forms["column"] = sympy.Matrix(entry.tolist())
+        forms["row"] = sympy.Matrix([entry.tolist()])
+    if kind == "dh_table":
+        forms["by name"] = [keyed(DH_COLUMNS, row) for row in entry.tolist()]
+    if form.names:
+        forms["by name"] = keyed(form.names, entry.tolist())
+    if kind == "direction":
+        forms["longer"] = change(lambda e: 7 * e)
+        forms["the other way"] = change(lambda e: -e)
+    return forms
+
+
+def perturbed(question, rng):
+    """The reference with one entry changed by a visible amount; None where nothing has changed."""
+    answer, kind = right(question), question.public.kind
+    if kind == "points":
+        cloud = np.array(answer, dtype=float)
+        size, far = np.ptp(cloud, axis=0), 3 * question.tolerance
+        chosen = rng.integers(3)
+        if chosen == 0:  # a part is missing
+            axis = rng.integers(cloud.shape[1])
+            return cloud[cloud[:, axis] < np.quantile(cloud[:, axis], rng.uniform(0.3, 0.8))]
+        if chosen == 1:
+            return cloud * (1 + max(0.1, 4 * question.tolerance / size.min()))
+        return np.vstack([cloud, cloud[: len(cloud) // 10] + size + far])[-5000:]
+    if kind == "joint_solutions":
+        solutions = np.array(answer, dtype=float).reshape(-1, len(question.public.joints))
+        if not len(solutions):
+            return rng.uniform(-1, 1, (1, len(question.public.joints)))
+        changed = solutions.copy()
+        changed[rng.integers(len(solutions)), rng.integers(solutions.shape[1])] += rng.choice([-1, 1]) * rng.uniform(0.05, 1)
+        family = isinstance(question.reference(VARIANT), Family)
+        return None if family and question.misses(changed, VARIANT).max() < 1e-9 else changed
+    form = entries(answer)
+    place = rng.integers(form.size)
+    symbols = sympy.symbols(question.public.symbols)
+    amount = rng.uniform(0.01, 1)
+    factor = symbols[rng.integers(len(symbols))] if symbols else 1 + amount
+    old = form.reshape(-1)[place] if form.ndim else form.item()
+    new = [old + amount, -old, old * factor, old + factor][rng.integers(4)]
+    changed = form.reshape(-1).copy()
+    changed[place] = new
+    changed = changed.reshape(form.shape) if form.ndim else changed[0]
+    return None if old == new or still_right(question, form, changed) else changed
+
+
+def still_right(question, reference, changed):
+    """Whether a changed entry leaves the meaning as it was, found without the judge's own algebra."""
+    kind, form = question.public.kind, question.public
+    values = {name: float(value[0]) for name, value in question.points.items()}
+    if kind in ("direction", "orientation", "dh_table"):
+        names = [name for name in {*form.symbols, *form.joints}]
+        rng = np.random.default_rng(0)
+        values |= {name: rng.uniform(-2, 2) for name in form.joints}
+        pair = [sympy.Matrix(each.tolist()).subs({name: values[name] for name in names}) for each in (reference, changed)]
+        first, second = (np.array(each.evalf(), dtype=float) for each in pair)
+    if kind == "direction":
+        return np.linalg.norm(np.cross(first.ravel(), second.ravel())) < 1e-9 if first.size == 3 else np.linalg.matrix_rank([first.ravel(), second.ravel()], 1e-9) < 2
+    if kind == "orientation":
+        axes = form.axes.upper() if form.frames == "moving" else form.axes.lower()
+        turns = [Rotation.from_euler(axes, each.ravel()) for each in (first, second)]
+        return (turns[0].inv() * turns[1]).magnitude() < 1e-7
+    if kind == "dh_table":
+        return np.allclose(hand(first), hand(second), atol=1e-9)
+    angle = kind == "expression" and question.angles or kind == "vector" and question.angles
+    if angle:
+        gap = sympy.Matrix(np.ravel(np.array(changed - reference)).tolist()).subs(values)
+        return all(abs(np.remainder(float(each) + np.pi, 2 * np.pi) - np.pi) < 1e-9 for each in gap if not each.free_symbols)
+    return False
+
+
+def hand(rows):
+    """The product of a numeric DHm table, from four elementary motions each."""
+    result = np.eye(4)
+    for _, a, alpha, d, theta in rows:
+        for axis, shift, turn in ((0, a, alpha), (2, d, theta)):
+            step = np.eye(4)
+            step[axis, 3] = shift
+            step[:3, :3] = Rotation.from_rotvec(turn * np.eye(3)[axis]).as_matrix()
+            result = result @ step
+    return result
