@@ -15,7 +15,7 @@ from autograder.judge.clusters import is_unexplained
 
 from .report import NOTHING_CAME, RIGHT, TELLS, TELLS_WELL, ClassReport, QuestionReport
 
-_STYLE = {**STYLE, "svg.hashsalt": "report", "hatch.linewidth": 0.8, "text.parse_math": False}
+_STYLE = {**STYLE, "hatch.linewidth": 0.8, "text.parse_math": False}
 _NO_METADATA = {"Creator": None, "Date": None, "Format": None, "Type": None}
 _MOST_NOTES = 9
 

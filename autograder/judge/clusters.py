@@ -147,8 +147,12 @@ class _Form:
             return False
         question = self.question
         setting = Setting(question.points, question.angles, question.tolerance, question.pinned)
-        with np.errstate(all="ignore"):
-            return KINDS[question.public.kind].compare(question.public, self.value, other.value, setting).equal
+        try:
+            with np.errstate(all="ignore"):
+                return KINDS[question.public.kind].compare(question.public, self.value, other.value, setting).equal
+        except (ArithmeticError, IndexError, ValueError):
+            # A kind counts on a sound answer on one side, the question's own. Here both are students'.
+            return False
 
 
 def _form(question: Question, answer: Value | None) -> _Form | None:

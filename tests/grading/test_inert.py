@@ -5,8 +5,7 @@ import re
 import pytest
 from nbformat.v4 import new_output
 
-from autograder.grading.export import _cell
-from autograder.grading.inert import inert_outputs, markdown2html, terminal_text
+from autograder.grading.inert import inert_outputs, markdown2html, spreadsheet_cell, terminal_text
 from autograder.grading.points import comment, note_of, points
 
 ATTACKS = [
@@ -97,5 +96,5 @@ def test_a_note_survives_the_gradebook():
 
 @pytest.mark.parametrize("text", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1"])
 def test_a_spreadsheet_sees_no_formula(text):
-    assert _cell(text) == f"'{text}"
-    assert _cell(-1.5) == -1.5 and _cell(None) == "" and _cell("ann") == "ann"
+    assert spreadsheet_cell(text) == f"'{text}"
+    assert spreadsheet_cell(-1.5) == -1.5 and spreadsheet_cell(None) == "" and spreadsheet_cell("ann") == "ann"
