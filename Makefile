@@ -27,6 +27,7 @@ lab: setup
 
 # Measurements against peers, as ratios within one run.
 bench: setup .venv-bench/installed
+	$(BIN)/python tests/benchmarks/verdicts.py
 	$(BIN)/python tests/benchmarks/run.py
 
 setup: .venv/installed bubblewrap

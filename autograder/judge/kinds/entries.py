@@ -23,7 +23,7 @@ from .base import Comparison, Setting, describe, in_order, refuse
 
 T = TypeVar("T")
 
-# An answer that is larger than this is not recomputed with many digits: bounded time counts for more.
+# No more than so many nodes of an answer are recomputed with forty digits: bounded time counts for more.
 MAX_EXACT_NODES = 3000
 
 
@@ -110,7 +110,11 @@ def agreement(student: Entries, other: Entries, setting: Setting, angles: Sequen
     # Cancellation in float64 may spoil a right answer; forty digits decide where the values are close, or the reader patient.
     doubtful = ~agree & ((error < 1e-3).all(axis=0) | setting.patient)
     if student.expressions and other.expressions:
+        left = MAX_EXACT_NODES
         for i in np.flatnonzero(doubtful):
+            left -= size(student.expressions[i])
+            if left < 0:
+                break
             agree[i] = _agree_exactly(student.expressions[i], other.expressions[i], setting, angles[i])
     return agree
 
@@ -124,7 +128,7 @@ def difference(a: np.ndarray, b: np.ndarray, angles: np.ndarray) -> np.ndarray:
 
 
 def _agree_exactly(student: Expression | Blank, other: Expression, setting: Setting, angle: bool) -> bool:
-    if isinstance(student, Blank) or size(student) > MAX_EXACT_NODES:
+    if isinstance(student, Blank):
         return False
     draws = list(zip(*setting.points.values(), strict=True)) or [()]
     for values in draws:
