@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from .. import strokes
-from .chains import JOINT, LINK, Labels, _Bodies
+from .chains import JOINT, LINK, Bodies, Labels
 from .planar import planar_points
 
 GHOST = (0, (3, 2))
@@ -172,7 +172,7 @@ def draw_six_axes(q=(0, 0, 0, 0, 0, 0), D3=0.2, L2=0.5, D4=0.6, h=0.2, ax=None):
         (0, (0, 0, floor), (0, 0, 0)), (2, (0, 0, 0), elbow), (3, elbow, knee), (3, knee, sleeve), (4, sleeve, wrist),
         (6, wrist, hand),
     )  # fmt: skip
-    bodies, labels = _Bodies(ax, unit), Labels()
+    bodies, labels = Bodies(ax, unit), Labels()
     for link, start, end in bars:
         bodies.tube(at(link, start), at(link, end), 0.02 * unit, LINK)
         bodies.ball(at(link, end), 0.02 * unit, LINK)
