@@ -81,7 +81,7 @@ def write_class(folder: Path, harmless: bool = False, short: bool = False) -> li
     harmless : bool
         Leave out what could do harm on a machine without a sandbox.
     short : bool
-        Write only right answers, named mistakes, and one submission of every other kind.
+        Write only one right notebook and one with named mistakes for every exercise, and one submission of every other kind.
 
     Returns
     -------
@@ -107,7 +107,7 @@ def write_class(folder: Path, harmless: bool = False, short: bool = False) -> li
             shutil.copyfile(REPOSITORY / name, folder / name)
     chosen = [submission for submission in submissions() if not (harmless and submission.harmful)]
     if short:
-        chosen = [one for one in chosen if one.stock or one.student.startswith(("right", "mistakes"))]
+        chosen = [one for one in chosen if one.stock or one.student in ("right", "mistakes-1")]
     sources = {exercise: solution(exercise) for exercise in {submission.exercise for submission in chosen}}
     for submission in chosen:
         place = folder / "submitted" / submission.student / submission.exercise
@@ -128,7 +128,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="Write the sample class: a course folder with submissions to grade.")
     parser.add_argument("folder", type=Path, help="new, empty, or an earlier sample class, which is replaced")
     parser.add_argument("--harmless", action="store_true", help="leave out what could do harm without a sandbox")
-    parser.add_argument("--short", action="store_true", help="write a third of the class: one submission of every kind")
+    parser.add_argument("--short", action="store_true", help="write a part of the class: one submission of every kind")
     options = parser.parse_args()
     try:
         written = write_class(options.folder, options.harmless, options.short)
