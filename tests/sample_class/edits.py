@@ -12,6 +12,7 @@ from copy import deepcopy
 
 BEGIN, END = "### BEGIN SOLUTION", "### END SOLUTION"
 STUB = "# your code here"
+TEXT_STUB = "YOUR ANSWER HERE"
 
 Notebook = dict
 Files = dict[str, bytes]
@@ -35,7 +36,11 @@ def released(nb: Notebook) -> Notebook:
         inside = inside and line.strip() != END
         return shown
 
-    return _each_source(nb, stub)
+    nb = _each_source(nb, stub)
+    for cell in nb["cells"]:
+        if cell["cell_type"] == "markdown" and cell["metadata"].get("nbgrader", {}).get("solution"):
+            cell["source"] = TEXT_STUB
+    return nb
 
 
 def signed(nb: Notebook, student: str) -> Notebook:

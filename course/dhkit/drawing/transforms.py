@@ -284,3 +284,13 @@ def draw_conventions():
         strokes.write(ax, (1.18, -0.36), "hand, downstream", ha="right", fontsize=10)
     figure.subplots_adjust(hspace=0.12, left=0.02, right=0.98, top=0.95, bottom=0.02)
     return list(panels)
+
+
+@strokes.styled
+def mark_shadow(ax, frame, size):
+    """A frame, shape (4, 4), as broad grey strokes without labels, to hold another frame against it."""
+    frame = strokes.as_numbers(frame, "frame", (4, 4))
+    for axis in frame[:3, :3].T:
+        ends = zip(frame[:3, 3], frame[:3, 3] + size * axis)
+        ax.plot(*ends, color=strokes.SOFT, alpha=0.45, lw=7, solid_capstyle="butt", zorder=2.5)
+    return ax
