@@ -49,6 +49,18 @@ class ThreeRPR:
         """Leg lengths of a pose: (..., 3) = (x, y, phi) -> (..., 3). One solution."""
         return np.linalg.norm(_legs(self, pose), axis=-1)
 
+    def jacobian(self, pose):
+        """Rates of the leg lengths, q' = J (x', y', phi'): (..., 3) -> (..., 3, 3).
+
+        Row i is (u_x, u_y, r x u): u the direction of leg i, r from P to B_i. Singular where the
+        three leg lines pass through one point or are parallel. NaN for a leg of length zero.
+        """
+        legs = _legs(self, pose)
+        lengths = np.linalg.norm(legs, axis=-1, keepdims=True)
+        along = legs / np.where(lengths > 0, lengths, np.nan)
+        arms = _turn(np.asarray(pose, float)[..., 2], self.platform)
+        return np.concatenate([along, _cross(arms, along)[..., None]], axis=-1)
+
     def polynomial(self, lengths):
         """Degree-6 polynomial in t = tan(phi / 2) whose real roots carry the assembly modes.
 

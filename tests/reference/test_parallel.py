@@ -89,6 +89,24 @@ def test_inverse_is_the_distance_between_the_joints():
     assert robot.inverse(poses.reshape(5, 10, 3)).shape == (5, 10, 3)
 
 
+def test_jacobian_is_the_derivative_of_the_inverse():
+    robot, rng = random_robot(4)
+    poses, step = random_poses(rng, 50), 1e-6
+    J = robot.jacobian(poses)
+    for k in range(3):
+        ahead, behind = (robot.inverse(poses + sign * step * np.eye(3)[k]) for sign in (1, -1))
+        assert np.allclose(J[..., k], (ahead - behind) / (2 * step), atol=1e-7)
+    on_anchor = robot.base[0] - robot.platform[0]
+    assert np.isnan(robot.jacobian([*on_anchor, 0.0])[0]).all()
+
+
+def test_jacobian_is_singular_where_modes_merge():
+    platform = np.array([(-1, 0), (0.2, 0.1), (1, 0)])
+    robot = ThreeRPR(base=platform + [(0, 0), (0, 0.3), (0, -0.2)], platform=platform)
+    assert abs(np.linalg.det(robot.jacobian([0.0, 1.0, 0.0]))) < 1e-12
+    assert abs(np.linalg.det(robot.jacobian([0.05, 1.0, 0.02]))) > 1e-3
+
+
 @pytest.mark.parametrize("seed", range(6))
 def test_direct_is_sound_and_recovers_the_pose(seed):
     robot, rng = random_robot(seed)
