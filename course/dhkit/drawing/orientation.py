@@ -165,7 +165,7 @@ def _round_arrow(ax, centre, line, radius, colour, zorder=8):
 
 
 @strokes.styled
-def draw_gimbal(angles=(0.0, 0.0, 0.0), axes="zyx", ax=None, *, names=ANGLE_NAMES, captions=()):
+def draw_gimbal(angles=(0.0, 0.0, 0.0), axes="zyx", ax=None, *, names=ANGLE_NAMES, captions=(), wanted=None):
     """Three nested hinges that make a set of Euler angles: two rings and, inside, the hand.
 
     The outer ring turns about an axis that is fixed, the inner ring about an axis of the outer one, the hand about
@@ -181,6 +181,8 @@ def draw_gimbal(angles=(0.0, 0.0, 0.0), axes="zyx", ax=None, *, names=ANGLE_NAME
         Names of the angles in mathematical notation.
     captions : n texts
         A line under each drawing.
+    wanted : array-like, shape (3, 3) or (n, 3, 3), optional
+        Orientations to compare the hand with: their axes x, y, z as grey arrows.
 
     Returns
     -------
@@ -192,19 +194,30 @@ def draw_gimbal(angles=(0.0, 0.0, 0.0), axes="zyx", ax=None, *, names=ANGLE_NAME
     rows = np.atleast_2d(strokes.as_numbers(angles, "angles", (None,) * np.ndim(angles)))
     if rows.shape[1] != 3:
         raise ValueError(f"angles: expected n x 3 numbers, found {' x '.join(map(str, rows.shape))}")
+    if wanted is not None:
+        wanted = np.broadcast_to(strokes.as_numbers(wanted, "wanted", (None,) * np.ndim(wanted)), (len(rows), 3, 3))
     own, ax = ax is None, ax or strokes.new_axes_3d(elev=24, azim=-58)
     step = 3.9 * _to_the_right(ax)
     points = []
     for k, row in enumerate(rows):
         centre = k * step
         _rings(ax, centre, row, axes, names)
+        if wanted is not None:
+            _grey_axes(ax, centre, wanted[k])
         if k < len(captions):
-            strokes.write_3d(ax, centre + (0, 0, -2.0), captions[k], fontsize=10)
+            strokes.write_3d(ax, centre + (0, 0, -2.3), captions[k], fontsize=10)
         points += [centre + s * 1.75 * v for s in (1, -1) for v in np.eye(3)]
-        points += [centre + (0, 0, -2.1)] if captions else []
+        points += [centre + (0, 0, -2.4)] if captions else []
         points += [centre + s * 0.48 * step for s in (1, -1)]
     strokes.fit_3d(ax, points, own, width=4.6 + 3.2 * (len(rows) - 1), height=4.8)
     return ax
+
+
+def _grey_axes(ax, centre, orientation):
+    """Thick grey arrows under those of the hand; they stick out, so that they show where both agree."""
+    for letter, direction in zip("xyz", np.asarray(orientation).T):
+        ax.plot(*zip(centre, centre + 0.84 * direction), color=strokes.SOFT, lw=5, alpha=0.55, zorder=5.5)
+        strokes.write_3d(ax, centre + 0.98 * direction, f"${letter}$", color=strokes.SOFT, fontsize=10)
 
 
 def gimbal_axes(angles, axes) -> np.ndarray:
