@@ -495,6 +495,8 @@ def degrees(*angles: int, **other) -> Mistake:
 
     def in_degrees(found):
         found = np.array(found, dtype=float)
+        if not found.size:
+            return []
         found[..., list(angles)] = np.degrees(found[..., list(angles)])
         return found.tolist()
 

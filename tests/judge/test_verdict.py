@@ -3,10 +3,14 @@
 import numpy as np
 import pytest
 import sympy
-from autograder.judge import Evidence, Family, Question, Variant, following, judge, mistake
-from autograder.questions import find
+from answers import verdict
 from dhkit import public, variants, wire
 from dhkit.public import PublicQuestion
+
+from autograder.judge import Evidence, Family, Question, Variant, following, judge, mistake
+from autograder.judge.decode import decode_answer
+from autograder.judge.kinds import KINDS, Setting
+from autograder.questions import find
 
 t1, t2, L1, L2, a2, a3, d2, t4 = sympy.symbols("t1 t2 L1 L2 a2 a3 d2 t4")
 ADA, BOB = Variant("ada"), Variant("bob")
@@ -161,6 +165,20 @@ def test_an_unreachable_target_has_no_solution():
     nothing = Question("arm.both", reference=lambda _: [], angles=(0, 1), misses=misses)
     assert judged(nothing, []).note == "right"
     assert "no solution here" in judged(nothing, [[0, 1]]).feedback
+
+
+def test_degrees_are_named_also_where_some_targets_have_no_solution():
+    question = find("planar_2r.inverse")
+    (node,) = (node for node in question.mistakes if node.note == "degrees")
+    assert verdict(question, node.steps[0](question.reference(ADA))).note == "degrees"
+    assert any(len(question.reference(ADA)(*args)) == 0 for args in question.probes(ADA, 7))
+
+
+@pytest.mark.parametrize("rows", [[[0] * 5] * 4, [[0, 1, 2, 3, 4]] * 4])
+def test_two_tables_without_any_joint_are_compared_cell_by_cell(rows):
+    form = public.find("scara.table")
+    student, other = (KINDS["dh_table"].read(form, decode_answer(wire.bundle(form.id, answer=wire.encode(each)), form.id)) for each in (rows, [[0, 7, 0, 0, 0]] * 4))
+    assert not KINDS["dh_table"].compare(form, student, other, Setting(find(form.id).points)).equal
 
 
 # ---------------------------------------------------------------- orientations, directions, clouds, transforms

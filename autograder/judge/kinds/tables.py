@@ -43,9 +43,10 @@ def compare_table(question: PublicQuestion, student: Entries, other: Entries, se
 def _chain(entries: Entries, question: PublicQuestion, setting: Setting) -> Chain | None:
     def read() -> Chain | None:
         try:
-            return Chain.of_entries(entries.expressions, question.joints, setting.points)
+            chain = Chain.of_entries(entries.expressions, question.joints, setting.points)
         except NotAChain:
             return None
+        return chain if chain.joints else None
 
     return entries.once("chain", setting.points, read)
 
