@@ -3,6 +3,7 @@
 Right answers in several forms earn full marks, every mistake of the tree is named, perturbed answers are refused.
 """
 
+import re
 from itertools import permutations
 
 import numpy as np
@@ -103,6 +104,7 @@ def test_two_mistakes_earn_the_product_of_their_shares_and_both_feedbacks():
 def test_a_tree_is_well_formed(question):
     notes = [node.note for node in question.mistakes]
     assert len(set(notes)) == len(notes)
+    assert all(re.fullmatch("[a-z0-9_]+", note) for note in notes), "the gradebook would lose such a note"
     assert all(0 <= node.share < 1 and node.feedback.strip() for node in question.mistakes)
     assert all(node.steps for node in question.mistakes)
     assert len(question.mistakes) >= 2, "a response tree knows at least two misconceptions"

@@ -36,8 +36,9 @@ def answer(rng, form):
     if form.kind == "joint_solutions":
         return [[rng.choice([rng.uniform(-4, 4), scalar(rng, ())]) for _ in form.joints] for _ in range(rng.choice([0, 1, 2, 99]))]
     everywhere = scalar(rng, form.symbols)
-    rows, columns = (form.shape[0], 1) if len(form.shape) == 1 else form.shape
-    return [[everywhere if rng.random() < 0.7 else scalar(rng, form.symbols) for _ in range(columns)] for _ in range(rows)]
+    nested = lambda sizes: [nested(sizes[1:]) for _ in range(sizes[0])] if sizes else entry()  # noqa: E731
+    entry = lambda: everywhere if rng.random() < 0.7 else scalar(rng, form.symbols)  # noqa: E731
+    return nested(form.shape if len(form.shape) > 1 else (*form.shape, 1))
 
 
 @pytest.mark.parametrize("question", QUESTIONS, ids=lambda question: question.id)
