@@ -137,8 +137,9 @@ def _agree_exactly(student: Expression | Blank, other: Expression, setting: Sett
         if theirs is None or ours is None:
             return False
         with np.errstate(all="ignore"):
-            gap = complex(difference(np.complex128(complex(theirs - ours)), np.complex128(0), np.bool_(angle)))
-        if not abs(gap) <= setting.tolerance * max(1, abs(complex(ours))):
+            # np.abs, as the abs of a huge complex number overflows.
+            gap = np.abs(difference(np.complex128(complex(theirs - ours)), np.complex128(0), np.bool_(angle)))
+        if not gap <= setting.tolerance * max(1, abs(complex(ours))):
             return False
     return True
 
