@@ -7,8 +7,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+import sympy
 from dhkit.drawing import planar_points
 from dhkit.drawing import workspace as ws
+from dhkit.pictures import workspace as pictures
 
 LENGTHS = (0.5, 0.3)
 ONE_WAY = np.radians([(-60, 120), (20, 150)])
@@ -96,3 +98,47 @@ def test_only_the_straight_elbow_makes_a_bold_edge():
 def test_bad_input_is_refused_in_words(draw, words):
     with pytest.raises(ValueError, match=words):
         draw()
+
+
+# ---------------------------------------------------------------- pictures of a student's own result
+
+t1i, t2i, t2j, L1, L2, t2, t3 = sympy.symbols("t1i t2i t2j L1 L2 t2 t3")
+POINT = [L1 * sympy.cos(t1i) + L2 * sympy.cos(t1i + t2j), L1 * sympy.sin(t1i) + L2 * sympy.sin(t1i + t2j)]
+VALUES = {"t2": 1.2, "t3": -1.0, "L1": 0.5, "L2": 0.3}
+PICTURES = {
+    "point": (pictures.show_point_function, (LENGTHS, ONE_WAY), POINT),
+    "cloud": (pictures.show_cloud, (LENGTHS, ONE_WAY), ws.rr_points(LENGTHS, [0.1, 0.5], [0.7, 0.9]).reshape(-1, 2)),
+    "reach": (pictures.show_reach_range, (LENGTHS,), lambda *args: [0.2, 0.8]),
+    "area": (pictures.show_area, (LENGTHS, ONE_WAY), 0.85),
+    "count": (pictures.show_count, (LENGTHS, BOTH_WAYS), lambda *args: 1),
+    "section": (pictures.show_section, (VALUES,), [L1 * sympy.cos(t2), L1 * sympy.sin(t2)]),
+}
+
+
+def words(ax):
+    labels = ax.get_legend_handles_labels()[1]
+    return " ".join([ax.get_title(), *(text.get_text() for text in ax.texts), *labels])
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_an_answer_is_drawn_and_nothing_is_said_to_be_nothing(name):
+    show, given, answer = PICTURES[name]
+    show(answer, *given).figure.canvas.draw()
+    untouched = (lambda *args: None) if callable(answer) else ...
+    assert "not attempted yet" in words(show(untouched, *given))
+    assert "cannot be drawn" in words(show("nonsense", *given))
+
+
+def test_one_index_shows_as_a_curve():
+    assert "576 different points" in words(pictures.show_point_function(POINT, LENGTHS, ONE_WAY))
+    printed = [entry.subs(t2j, t2i) for entry in POINT]
+    assert "24 different points" in words(pictures.show_point_function(printed, LENGTHS, ONE_WAY))
+
+
+def test_counts_that_no_arm_has_are_crossed():
+    assert "neither 0, 1 nor 2" in words(pictures.show_count(lambda *args: 3, LENGTHS, BOTH_WAYS))
+    assert "neither 0, 1 nor 2" not in words(pictures.show_count(lambda *args: 2, LENGTHS, BOTH_WAYS))
+
+
+def test_an_area_in_degrees_is_too_large_for_a_picture():
+    assert "far larger than the arm reaches" in words(pictures.show_area(850.0, LENGTHS, ONE_WAY))

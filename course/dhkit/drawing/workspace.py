@@ -335,6 +335,22 @@ def _rgb(colour):
     return tuple(int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5))
 
 
+@strokes.styled
+def mark_edges(ax, lengths, limits):
+    """Edges of the workspace of an RR arm, those inside it too: bold where the elbow is straight, thin at a stop.
+
+    Parameters
+    ----------
+    lengths : array-like, shape (2,), in metres
+    limits : array-like, shape (2, 2), in radians
+        Rows (min, max) of t1 and t2.
+    """
+    limits = _joint_limits(limits)
+    for piece in _one_bend(limits):
+        _trace_rim(ax, lengths, piece, limits)
+    return ax
+
+
 def _trace_rim(ax, lengths, piece, limits):
     """Edges of one sheet: singular arcs (straight elbow) bold, edges made by joint limits thin."""
     t1, t2 = (np.linspace(*row, 200) for row in piece)
@@ -379,8 +395,7 @@ def draw_posture_count(lengths, limits, point=None, ax=None):
         vmax=2,
         zorder=0.5,
     )
-    for piece in _one_bend(limits):
-        _trace_rim(ax, lengths, piece, limits)
+    mark_edges(ax, lengths, limits)
     if point is not None:
         goal = strokes.as_numbers(point, "point", (2,))
         for k, (t1, t2) in enumerate(_postures(lengths, limits, goal)):

@@ -1,0 +1,187 @@
+"""A student's result on workspaces: clouds, limits of reach, areas, numbers of postures, the section of an elbow arm."""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+import sympy
+from matplotlib.colors import ListedColormap
+from matplotlib.patches import Rectangle
+
+from ..drawing import mark_target
+from ..drawing.workspace import (
+    COUNT_SHADES,
+    draw_clouds,
+    draw_section,
+    draw_sheets,
+    mark_edges,
+)
+from ..strokes import AXIS_COLOURS, INK, SOFT, as_numbers, show_plane
+from .own_result import called, numbers, own_result
+
+INDEXED = ("t1i", "t1j", "t2i", "t2j", "L1", "L2")
+
+
+@own_result
+def show_point_function(point, lengths, limits, count=24):
+    """The cloud that a point function gives for all pairs (i, j), over the workspace of the arm.
+
+    Parameters
+    ----------
+    point : 2 entries in t1i, t1j, t2i, t2j, L1, L2
+    lengths : (float, float), in metres
+    limits : rows (min, max) of t1 and t2, in radians
+    count : int
+        Number of values of each joint.
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    numbers(point, "point", (2,), dict.fromkeys(INDEXED, 0.5))  # refuses another form in words
+    entries = [sympy.sympify(entry) for entry in np.ravel(np.array(point, dtype=object))]
+    values = [np.linspace(*row, count) for row in limits]
+    given = [values[0][:, None], values[0][None], values[1][:, None], values[1][None], *lengths]
+    functions = [sympy.lambdify([sympy.Symbol(name) for name in INDEXED], entry, "numpy") for entry in entries]
+    cloud = np.stack([np.broadcast_to(function(*given), (count, count)) for function in functions], axis=-1)
+    distinct = len(np.unique(cloud.reshape(-1, 2).round(9), axis=0))
+    return draw_clouds({f"{count} x {count} pairs, {distinct} different points": cloud}, lengths, limits, size=3)
+
+
+@own_result
+def show_cloud(points, lengths, limits):
+    """A cloud of points over the workspace of the arm.
+
+    Parameters
+    ----------
+    points : array-like, shape (k, 2), in metres
+    lengths : (float, float), in metres
+    limits : rows (min, max) of t1 and t2, in radians
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    points = as_numbers(points, "cloud", (None, 2))
+    return draw_clouds({f"your {len(points)} points": points}, lengths, limits)
+
+
+@own_result
+def show_reach_range(reach, lengths, ranges=((0.5, 2.4), (-1.2, 2.2), (1.8, 4.4))):
+    """What a function reach(L1, L2, t2_min, t2_max) returns for some ranges, as lines over the curve of the distance.
+
+    Parameters
+    ----------
+    reach : function (L1, L2, t2_min, t2_max) -> [r_min, r_max]
+    lengths : (float, float), in metres
+    ranges : sequence of (min, max), in radians
+
+    Returns
+    -------
+    matplotlib Axes
+        The last one.
+    """
+    found = [numbers(called(reach, *lengths, *row), "reach", (2,), {}) for row in ranges]
+    panels = plt.subplots(1, len(ranges), figsize=(3.3 * len(ranges), 3.1), sharey=True, layout="constrained")[1]
+    turn = np.linspace(-np.pi, 2 * np.pi, 400)
+    for ax, (low, high), limits in zip(panels, ranges, found):
+        distance = np.hypot(lengths[0] + lengths[1] * np.cos(turn), lengths[1] * np.sin(turn))
+        inside = (turn >= low) & (turn <= high)
+        ax.plot(np.degrees(turn), distance, color=SOFT, lw=1.2)
+        ax.plot(np.degrees(turn[inside]), distance[inside], color=INK, lw=3)
+        ax.axvspan(*np.degrees([low, high]), color="#f1f1f1", zorder=0)
+        for value, dashes in zip(limits, ((0, (5, 2)), "-")):
+            ax.axhline(value, color=AXIS_COLOURS["x"], lw=1.5, ls=dashes)
+        ax.set_title(f"{np.degrees(low):.0f}° to {np.degrees(high):.0f}°".replace("-", "\N{MINUS SIGN}"), fontsize=10)
+        ax.set(xlabel=r"$\theta_2$ (degrees)", ylim=(0, 1.2 * sum(lengths)), xticks=range(-180, 361, 180))
+    panels[0].set_ylabel("distance (m); your limits in red")
+    return panels[-1]
+
+
+@own_result
+def show_area(area, lengths, limits):
+    """A square of the area of an answer beside the workspace, at the same scale.
+
+    Parameters
+    ----------
+    area : number, in square metres
+    lengths : (float, float), in metres
+    limits : rows (min, max) of t1 and t2, in radians
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    area = float(numbers(area, "area", (), {}))
+    if area <= 0:
+        raise ValueError(f"an area is positive, found {area:.4g}")
+    side = np.sqrt(area)
+    if side > 20 * sum(lengths):
+        raise ValueError(f"{area:.4g} square metres: a square of {side:.3g} m, far larger than the arm reaches")
+    ax = draw_sheets(lengths, limits, plt.subplots(figsize=(7.2, 4.4))[1])
+    left = 1.25 * sum(lengths)
+    ax.add_patch(Rectangle((left, -side / 2), side, side, facecolor="#efe3c4", edgecolor=INK, lw=1.4, zorder=2))
+    ax.text(left + side / 2, 0, f"your {area:.3f} m²", ha="center", va="center", zorder=3)
+    ax.autoscale_view()
+    ax.margins(0.06)
+    return ax
+
+
+@own_result
+def show_count(count, lengths, limits):
+    """How many postures a function finds over the plane, with the edges of the arm's sheets on top.
+
+    Parameters
+    ----------
+    count : function (x, y, lengths, limits) -> number
+    lengths : (float, float), in metres
+    limits : rows (min, max) of t1 and t2, in radians
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    reach = 1.06 * sum(lengths)
+    side = np.linspace(-reach, reach, 42)
+    lengths, limits = [float(length) for length in lengths], np.array(limits, float).tolist()
+    found = np.array([[_counted(count, x, y, lengths, limits) for x in side] for y in side])
+    odd = ~np.isin(found, (0, 1, 2))
+    ax = plt.subplots(figsize=(5.2, 4.9))[1]
+    step = side[1] - side[0]
+    extent = (-reach - step / 2, reach + step / 2) * 2
+    ax.imshow(np.where(odd, 0, found), extent=extent, origin="lower", cmap=ListedColormap(COUNT_SHADES), vmin=0, vmax=2)
+    if odd.any():
+        rows, columns = np.nonzero(odd)
+        ax.plot(side[columns], side[rows], "x", ms=4, color=AXIS_COLOURS["x"], label="neither 0, 1 nor 2")
+    mark_edges(ax, lengths, limits)
+    show_plane(ax)
+    for shade, name in zip(COUNT_SHADES[1:], ("one posture", "two postures")):
+        ax.add_patch(Rectangle((9, 9), 1, 1, facecolor=shade, edgecolor=INK, label=name))
+    ax.set_xlim(extent[:2])
+    ax.set_ylim(extent[:2])
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=3, handlelength=1.4, columnspacing=1.2)
+    return ax
+
+
+def _counted(count, x, y, lengths, limits) -> float:
+    return float(numbers(called(count, float(x), float(y), list(lengths), [list(row) for row in limits]), "count", (), {}))
+
+
+@own_result
+def show_section(section, values: dict[str, float]):
+    """A point [rho, z] over the elbow arm in the posture given by `values`; the cross belongs on the hand.
+
+    Parameters
+    ----------
+    section : 2 entries in t2, t3, L1, L2
+    values : dict
+        Numbers for t2, t3 (radians), L1, L2 (metres).
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    at = numbers(section, "section", (2,), values)
+    around = [(values[name] - 0.02, values[name] + 0.02) for name in ("t2", "t3")]
+    ax = draw_section((values["L1"], values["L2"]), around, (values["t2"], values["t3"]), names=False)
+    return mark_target(ax, at, "your result")
