@@ -232,7 +232,7 @@ def show_rx90_forward(forward, mine):
     matplotlib Axes (3D)
         The path ends on the tool point, its frames stand as the tool does.
     """
-    start, end = np.radians([75, 20, -10, 0, 40, 0]), np.radians([-30, 65, -40, 25, -50, 40])
+    start, end = np.radians([60, 25, -75, 0, 40, 0]), np.radians([-30, 65, -40, 25, -50, 40])
     path = [start + s * (end - start) for s in np.linspace(0, 1, 31)]
     frames = np.array([numbers(called(forward, *map(float, q)), "forward", (4, 4), {}) for q in path])
     rows = [*RX90, [0, mine["reach"], radians(mine["bend"]), mine["length"], 0]]
