@@ -289,6 +289,9 @@ def _decoded(form, answer: object) -> Value:
 
 def _read_or_complaint(kind: Kind, form, result: Value) -> object:
     try:
-        return kind.read(form, result)
+        answer = kind.read(form, result)
     except Malformed as fault:
         return fault
+    # nan is how numpy fails: as an exception would, it says that there is no value.
+    failed = isinstance(answer, Entries) and not answer.finite()
+    return Malformed(f"expected {form.expected}, found a value that is not finite") if failed else answer

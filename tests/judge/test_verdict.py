@@ -21,6 +21,9 @@ FORMS = {
     "arm.fixed": PublicQuestion("arm.fixed", "", "orientation", "three angles", shape=(3,), axes="xyz", frames="fixed"),
     "arm.free": PublicQuestion("arm.free", "", "direction", "a direction", shape=(2,)),
     "arm.cloud": PublicQuestion("arm.cloud", "", "points", "a list of points", shape=(2,)),
+    "arm.half": PublicQuestion(
+        "arm.half", "", "function", "a function", returns=PublicQuestion("arm.half()", "", "vector", "two numbers", shape=(2,))
+    ),
     "arm.T": PublicQuestion("arm.T", "", "transform", "a 4x4 matrix", shape=(4, 4)),
 }
 
@@ -256,3 +259,26 @@ def test_cancellation_never_fails_a_right_answer():
     assert judged(question, spoiled + sympy.Rational(1, 1000)).share < 1
 
 
+# ---------------------------------------------------------------- functions
+
+
+def raising(half):
+    return lambda x: half(x) if x else 1 / 0
+
+
+HALF = Question(
+    "arm.half",
+    reference=lambda variant: lambda x: [x / 2, 1.0],
+    mistakes=(mistake("fails_at_zero", 0.6, "**At zero it fails.**", raising),),
+    probe=lambda rng: [[1.0], [0.0], [3.0]],
+    group=lambda x: "zero" if x == 0 else "the rest",
+)
+
+
+@pytest.mark.parametrize("failed", [{"error": "division by zero"}, [{"float": "nan"}, 1.0], [{"float": "-inf"}, {"float": "nan"}]])
+def test_a_value_that_is_not_finite_is_a_failure_like_an_exception(failed):
+    probes = HALF.probes(ADA, 7)
+    results = [[0.5, 1.0], failed, [1.5, 1.0]]
+    handed_in = wire.bundle("arm.half", answer={"function": "half"})
+    found = judge(HALF, Evidence(handed_in, (probes, wire.bundle("arm.half", probes=results))), ADA)
+    assert (found.note, found.share) == ("fails_at_zero", 0.6)

@@ -55,6 +55,11 @@ class Entries:
 
         return self.once("values", points, evaluated)
 
+    def finite(self) -> bool:
+        """Whether no filled-in number is nan or infinite; for entries without symbols."""
+        filled = [not isinstance(expression, Blank) for expression in self.expressions]
+        return bool(np.isfinite(self.values({})[:, filled]).all())
+
     def once(self, what: str, points: Mapping[str, np.ndarray], make: Callable[[], T]) -> T:
         """What `make` returns; made once for the same sample points, as one answer is compared with many."""
         if (kept := self._kept.get(what)) is None or kept[0] is not points:
