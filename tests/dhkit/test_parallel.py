@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from autograder.reference.parallel import ThreeRPR, ThreeRRR
 from dhkit.drawing import parallel
+from dhkit.pictures import parallel_robots as pictures
+from sympy import cos, sin, symbols
 
 BASE = np.array([(0, 0), (1.0, 0), (0.3, 0.6)])
 PLATFORM = np.array([(-0.2, -0.2), (0.2, -0.2), (0.1, 0.3)])
@@ -107,3 +109,68 @@ def test_bad_input_is_refused_in_words(draw, message):
     with pytest.raises(ValueError, match=message):
         draw()
     assert not plt.get_fignums()
+
+
+# ---------------------------------------------------------------- pictures of a student's result
+
+
+def jacobian(x, y, phi):
+    return ROBOT.jacobian([x, y, phi])
+
+
+x, y, phi, u, v = symbols("x y phi u v")
+SHOWN = {
+    "joint": (
+        pictures.show_platform_joint,
+        [x + u * cos(phi) - v * sin(phi), y + u * sin(phi) + v * cos(phi)],
+        ({"x": 0.5, "y": 0.6, "phi": 0.3},),
+    ),
+    "leg_lengths": (pictures.show_leg_lengths, lambda *pose: ROBOT.inverse(pose), ((0.5, 0.6, 0.3),)),
+    "modes": (pictures.show_modes, ROBOT.direct(SIX).listed(), (SIX,)),
+    "jacobian": (pictures.show_singular_poses, jacobian, (0.0,)),
+    "singular": (pictures.show_singular, 0.5, (0.7,)),
+    "postures": (pictures.show_3rrr_postures, [[0.1] * 6] * 2, ((0.4, 0.4), (0.5, 0.45, 0.2))),
+}
+
+
+def shown(name, answer):
+    show, _, rest = SHOWN[name]
+    return show(answer, BASE, PLATFORM, *rest)
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_answers_are_drawn_and_blanks_say_so(name):
+    answer = SHOWN[name][1]
+    ax = shown(name, answer)
+    ax.figure.canvas.draw()
+    assert ax.lines or ax.collections or ax.patches
+    blank = (lambda *pose: None) if callable(answer) else ...
+    assert texts(shown(name, blank)) == ["not attempted yet"]
+    assert "cannot be drawn" in texts(shown(name, "seven"))[0]
+
+
+def test_the_cross_sits_where_the_formula_says():
+    def cross(answer):
+        return next(line.get_xydata()[0] for line in shown("joint", answer).lines if line.get_marker() == "+")
+
+    place = parallel.platform_points(PLATFORM, (0.5, 0.6, 0.3))[1]
+    assert cross(SHOWN["joint"][1]) == pytest.approx(place)
+    assert np.hypot(*(cross([x + u, y + v]) - place)) > 0.05
+
+
+def test_circles_have_the_radii_that_the_function_returns():
+    circles = [patch for patch in shown("leg_lengths", lambda *pose: [0.3, 0.4, 0.5]).patches if hasattr(patch, "radius")]
+    assert [circle.radius for circle in circles] == [0.3, 0.4, 0.5]
+
+
+def test_a_wrong_mode_is_named_by_its_legs():
+    right = ROBOT.direct(SIX).listed()
+    assert all("legs fit" in text for text in texts(shown("modes", right)))
+    wrong = texts(shown("modes", [right[0], right[1] + [0.1, 0, 0]]))
+    assert "legs fit" in wrong[0] and "a leg is off by" in wrong[1]
+    assert texts(shown("modes", [])) == ["no way to close the legs"]
+
+
+def test_the_line_of_singular_poses_needs_a_sign_change():
+    assert "singular on the line" in shown("jacobian", jacobian).get_title()
+    assert "never changes" in shown("jacobian", lambda *pose: np.eye(3)).get_title()

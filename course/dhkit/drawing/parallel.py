@@ -79,7 +79,7 @@ def draw_3rpr(base, platform, pose, ax=None, *, names=True, lengths=False, view=
             leg = (joint - foot) / (np.hypot(*(joint - foot)) or 1)
             across = np.array([-leg[1], leg[0]])
             across = across * (np.sign(across @ ((foot + joint) / 2 - centre)) or 1)
-            strokes.write(ax, (foot + joint) / 2 + 0.065 * size * across, f"$q_{i}$")
+            strokes.write(ax, foot + 0.38 * (joint - foot) + 0.065 * size * across, f"$q_{i}$")
             strokes.write(ax, foot - 0.085 * size * leg + 0.02 * size * across, f"$A_{i}$")
             out = joint - joints.mean(axis=0)
             strokes.write(ax, joint + 0.075 * size * out / (np.hypot(*out) or 1), f"$B_{i}$")

@@ -72,6 +72,7 @@ def numbers(answer, what: str, shape: tuple, values: dict[str, float]) -> np.nda
     """The answer as floats, with `values` put in for its symbols by name."""
 
     def number(entry):
+        entry = entry.tolist() if isinstance(entry, np.ndarray) else entry
         if isinstance(entry, (list, tuple)):
             return [number(item) for item in entry]
         entry = sympy.sympify(entry)
