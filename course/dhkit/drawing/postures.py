@@ -34,7 +34,7 @@ def _size(path) -> float:
     return np.linalg.norm(np.diff(path, axis=0), axis=1).sum()
 
 
-def _draw_arm(ax, table, shade, shift=(0, 0, 0), size=None, width=7.0, zorder=3.0, base=True, axes=True):
+def _draw_arm(ax, table, shade, shift=(0, 0, 0), size=None, width=7.0, zorder=3.0, base=True):
     """One arm moved by `shift`: column, links, joints, and with six joints the wrist's axis 5 and the hand.
 
     Returns the points that the view must hold.
@@ -66,7 +66,7 @@ def _draw_arm(ax, table, shade, shift=(0, 0, 0), size=None, width=7.0, zorder=3.
     joints = np.unique(np.round(frames[1:, :3, 3], 9), axis=0)
     for at in joints:
         ax.plot(*(shift + at)[:, None], "o", ms=0.75 * width, mfc="white", mec=strokes.INK, mew=1.1, zorder=zorder + 0.7)
-    if axes and len(frames) >= 7:
+    if len(frames) >= 7:
         points += _draw_wrist_and_hand(ax, frames, shift, 0.17 * size, zorder + 0.8)
     return points
 
@@ -102,7 +102,7 @@ def _names(names, count) -> list[str]:
 
 
 @strokes.styled
-def draw_posture_gallery(tables, names=None, ax=None, *, columns=4, elev=18.0, azim=-62.0):
+def draw_posture_gallery(tables, names=None, target=None, ax=None, *, columns=4, elev=18.0, azim=-62.0):
     """Postures of one robot side by side, all from the same view and at the same scale.
 
     The arrow on the column is X1: which way joint 1 has turned. A six-axis arm shows its hand with X6 (red, solid) and
@@ -114,6 +114,8 @@ def draw_posture_gallery(tables, names=None, ax=None, *, columns=4, elev=18.0, a
         One DHm table of numbers per posture, rows [sigma, a, alpha, d, theta], in metres and radians.
     names : sequence of texts, optional
         Written under the postures; by default 1, 2, 3, ...
+    target : array-like, shape (3,), in metres, optional
+        A point to mark in every picture.
     columns : int
         Postures per row.
     elev, azim : float, in degrees
@@ -131,6 +133,9 @@ def draw_posture_gallery(tables, names=None, ax=None, *, columns=4, elev=18.0, a
     scale = max(_size(path) for _, path in chains)
     # Room that any of the arms needs, measured in the plane of the paper.
     reach = [np.vstack([path, frames[-1, :3, 3] + 0.2 * scale * frames[-1, :3, :3].T]) for frames, path in chains]
+    if target is not None:
+        target = strokes.as_numbers(target, "target", (3,))
+        reach.append(target[None])
     seen = np.vstack(reach) @ np.array([right, up]).T
     wide = max(np.ptp(seen[:, 0]), 0.5 * scale) + 0.22 * scale
     foot = min(seen[:, 1].min(), -0.42 * scale)
@@ -140,6 +145,10 @@ def draw_posture_gallery(tables, names=None, ax=None, *, columns=4, elev=18.0, a
         row, column = divmod(k, columns)
         shift = column * wide * right - row * high * up
         points += _draw_arm(ax, table, strokes.POSTURE_SHADES[1], shift, scale)
+        if target is not None:
+            ax.plot(*(shift + target)[:, None], marker="o", ms=13, mfc="none", mec=strokes.INK, mew=1.2, zorder=7)
+            ax.plot(*(shift + target)[:, None], marker="+", ms=18, color=strokes.INK, mew=1.2, zorder=7)
+            points.append(shift + target)
         at = shift + (foot - 0.1 * scale) * up
         strokes.write_3d(ax, at, name, fontsize=9.5)
         points += [at - 0.08 * scale * up + side * 0.4 * wide * right for side in (-1, 1)]
@@ -168,7 +177,7 @@ def draw_posture_family(tables, ax=None, *, elev=20.0, azim=-62.0):
     points, greys = [], np.linspace(0.93, 0.5, len(tables))
     for k, (table, grey) in enumerate(zip(tables, greys)):
         last = k == len(tables) - 1
-        points += _draw_arm(ax, table, str(grey), zorder=3 + k, base=last, axes=last)
+        points += _draw_arm(ax, table, str(grey), zorder=3 + k, base=last)
     strokes.fit_3d(ax, points, own, width=5.2, height=4.6)
     return ax
 
@@ -239,15 +248,17 @@ def _wrapped(angle):
 
 
 @strokes.styled
-def draw_shoulder_top(offset, target, ax=None, *, offset_name="d_2"):
-    """A laterally offset arm from above: the two planes through the target that keep `offset` from axis 1.
+def draw_shoulder_top(offset, target, turns=None, ax=None, *, offset_name="d_2"):
+    """A laterally offset arm from above: planes that keep `offset` from axis 1, by default the two through the target.
 
     Parameters
     ----------
     offset : float, in metres, positive
-        Distance of the arm's plane from axis 1.
+        Distance of the arm's plane from axis 1, to the left of the direction t1.
     target : array-like, shape (2,), in metres
         The point to reach, seen from above, outside the circle of radius `offset`.
+    turns : array-like, shape (k, 2), optional
+        Rows (t1, A): direction of the plane in radians, and how far the arm goes in it, in metres.
     offset_name : text in LaTeX
 
     Returns
@@ -259,23 +270,25 @@ def draw_shoulder_top(offset, target, ax=None, *, offset_name="d_2"):
     r = np.hypot(*goal)
     if r <= offset:
         raise ValueError(f"target: expected a point outside the circle of radius {offset:.3g}, found one at {r:.3g}")
+    ahead, length = np.arctan2(*goal[::-1]), np.sqrt(r**2 - offset**2)
+    both = [(ahead - np.arctan2(offset, a), a) for a in (length, -length)]
+    turns = both if turns is None else strokes.as_numbers(turns, "turns", (None, 2))
     ax = ax or strokes.new_axes((5.4, 4.6))
     strokes.show_plane(ax)
     ax.add_patch(Circle((0, 0), offset, facecolor="#eeeeee", edgecolor=strokes.INK, lw=1.2, ls=(0, (5, 2)), zorder=1))
-    ahead, lean = np.arctan2(*goal[::-1]), np.arccos(offset / r)
     ax.plot(*zip((0, 0), goal), color=strokes.INK, lw=1.1, ls=strokes.CENTRE_LINE, zorder=2)
-    for k, side in enumerate((-1, 1)):
-        foot = offset * strokes.unit_vector(ahead + side * lean)
-        strokes.link(ax, (0, 0), foot, strokes.POSTURE_SHADES[k], width=10, zorder=3)
-        strokes.link(ax, foot, goal, strokes.POSTURE_SHADES[k], width=10, zorder=3.2)
-        square = 0.16 * offset
-        along, out = (goal - foot) / np.hypot(*(goal - foot)), -foot / offset
-        corner = foot + 1.6 * square * (along + out)
-        ax.plot(*zip(foot + 1.6 * square * along, corner, foot + 1.6 * square * out), color=strokes.INK, lw=0.9, zorder=2)
-        middle = (foot + goal) / 2 + 0.32 * offset * -out
-        strokes.write(ax, middle, f"{k + 1}", fontweight="bold")
-        beside = foot / 2 + 0.24 * offset * np.array([-foot[1], foot[0]]) / offset * side
-        strokes.write(ax, beside, f"${offset_name}$")
+    for k, (t1, a) in enumerate(turns):
+        out, along = strokes.unit_vector(t1 + np.pi / 2), np.sign(a) * strokes.unit_vector(t1)
+        foot = offset * out
+        fill = strokes.POSTURE_SHADES[k % len(strokes.POSTURE_SHADES)]
+        strokes.link(ax, (0, 0), foot, fill, width=10, zorder=3)
+        strokes.link(ax, foot, foot + abs(a) * along, fill, width=10, zorder=3.2)
+        corner = 0.26 * offset
+        ax.plot(
+            *zip(foot + corner * along, foot + corner * (along - out), foot - corner * out), color=strokes.INK, lw=0.9, zorder=2
+        )
+        strokes.write(ax, foot + 0.5 * abs(a) * along + 0.32 * offset * out, f"{k + 1}", fontweight="bold")
+        strokes.write(ax, foot / 2 - 0.24 * offset * along, f"${offset_name}$")
     strokes.joint(ax, (0, 0), zorder=6)
     strokes.target_mark(ax, goal)
     strokes.write(ax, goal + 0.4 * offset * strokes.unit_vector(ahead), "$(W_x, W_y)$", ha="left", zorder=10)

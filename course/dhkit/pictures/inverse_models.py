@@ -1,0 +1,176 @@
+"""A student's inverse models: postures side by side, each with its miss; the shoulder from above; singular and free directions."""
+
+from __future__ import annotations
+
+import matplotlib.pyplot as plt
+import numpy as np
+import sympy
+
+from ..drawing.chains import chain_frames, draw_chain
+from ..drawing.postures import draw_posture_family, draw_posture_gallery, draw_shoulder_top
+from ..strokes import INK, SOFT
+from .own_result import called, card, entries, numbers, own_result
+
+MOST = 16  # postures drawn
+
+
+@own_result
+def show_all_postures(solutions, table, target):
+    """Joint solutions of a robot side by side, each with the distance by which it misses the target.
+
+    Parameters
+    ----------
+    solutions : rows of joint values, in radians
+    table : function of the joint values, by their names -> rows [sigma, a, alpha, d, theta]
+    target : array-like, shape (3,) or (4, 4)
+        A point in metres, or a pose.
+
+    Returns
+    -------
+    matplotlib Axes (3D)
+    """
+    width = table.__code__.co_argcount - len(table.__defaults__ or ())
+    joints = table.__code__.co_varnames[:width]
+    solutions = solutions.tolist() if hasattr(solutions, "tolist") else solutions
+    if isinstance(solutions, dict) or len(solutions) == len(entries(solutions)) == width and not isinstance(solutions[0], dict):
+        solutions = [solutions]
+    solutions = [[row[name] for name in joints] if isinstance(row, dict) else row for row in solutions]
+    rows = numbers(solutions, "solutions", (None, width), {}) if entries(solutions) else []
+    if not len(rows):
+        return card("no solution given")
+    target = np.array(target, dtype=float)
+    tables = [table(*q) for q in rows[:MOST]]
+    names = [f"{k}: {_miss(each, target)}" for k, each in enumerate(tables, 1)]
+    return draw_posture_gallery(tables, names, target if target.shape == (3,) else None)
+
+
+@own_result
+def show_inverse_of_pose(inverse, table, pose, *lengths):
+    """`show_all_postures` for what a student's function ``inverse(pose, *lengths)`` returns."""
+    found = called(inverse, np.array(pose, dtype=float), *lengths)
+    return show_all_postures(found, table, pose) if len(found) else card("no solution given")
+
+
+def _miss(table, target) -> str:
+    """By how much the hand of a numeric table misses a point or a pose, in words."""
+    hand = chain_frames(table)[-1]
+    point = target if target.shape == (3,) else target[:3, 3]
+    parts = []
+    if (far := np.linalg.norm(hand[:3, 3] - point)) > 1e-4:
+        parts.append(f"{far:.3f} m off")
+    if target.shape == (4, 4):
+        turn = np.degrees(np.arccos(np.clip((np.trace(hand[:3, :3].T @ target[:3, :3]) - 1) / 2, -1, 1)))
+        if turn > 0.05:
+            parts.append(f"{turn:.1f}° off")
+    return "\n".join(parts) or "on the target"
+
+
+@own_result
+def show_shoulder(expression, offset, target):
+    """The shoulder of a PUMA-like arm from above, turned as a formula for t1 says, for both signs of A.
+
+    Parameters
+    ----------
+    expression : SymPy expression in Wx, Wy, d2, A
+    offset : float, in metres
+    target : (float, float), in metres
+        Outside the circle of radius `offset`.
+
+    Returns
+    -------
+    matplotlib Axes
+        Both arms end on the target when the formula is right.
+    """
+    length = np.sqrt(target[0] ** 2 + target[1] ** 2 - offset**2)
+    given = {"Wx": target[0], "Wy": target[1], "d2": offset}
+    turns = [(float(numbers(expression, "t1", (), given | {"A": a})), a) for a in (length, -length)]
+    return draw_shoulder_top(offset, target, turns)
+
+
+@own_result
+def show_repaired_row(answer, rows, values):
+    """The robot of a table in which one row is replaced by the answer, with its joint axes.
+
+    Parameters
+    ----------
+    answer : six entries [row, sigma, a, alpha, d, theta], or a dictionary with these keys
+    rows : list of rows [sigma, a, alpha, d, theta], as printed
+    values : dict
+        Numbers for the symbols.
+
+    Returns
+    -------
+    matplotlib Axes (3D)
+    """
+    answer = list(answer.values()) if isinstance(answer, dict) else entries(answer)
+    place, *row = numbers(answer, "row", (6,), values)
+    if place not in range(1, len(rows) + 1):
+        raise ValueError(f"row: expected a number from 1 to {len(rows)}, found {place:g}")
+    table = [numbers(each, "table", (5,), values) for each in rows]
+    table[int(place) - 1] = row
+    return draw_chain(table, frames=())
+
+
+@own_result
+def show_determinant(expression, lengths):
+    """The determinant of an elbow arm over t2 and t3; the lines on which it vanishes are drawn in ink.
+
+    Parameters
+    ----------
+    expression : SymPy expression in t1, t2, t3, L1, L2
+    lengths : (float, float), in metres
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    turn = np.linspace(-0.98, 0.98, 121) * np.pi
+    given = {"t1": 0.4, "L1": lengths[0], "L2": lengths[1]}
+    # Translated once: a substitution for each point of the grid would take a minute.
+    expression = sympy.sympify(expression)
+    foreign = sorted(symbol.name for symbol in expression.free_symbols if symbol.name not in {*given, "t2", "t3"})
+    if foreign:
+        raise ValueError(f"determinant: the symbol {foreign[0]} is not one of t1, t2, t3, L1, L2")
+    by_name = {symbol.name: symbol for symbol in expression.free_symbols}
+    expression = expression.subs({by_name[name]: value for name, value in given.items() if name in by_name})
+    function = sympy.lambdify([by_name.get(name, sympy.Symbol(name)) for name in ("t2", "t3")], expression, "numpy")
+    t2, t3 = np.meshgrid(turn, turn, indexing="ij")
+    values = np.broadcast_to(np.asarray(function(t2, t3), dtype=float), t2.shape)
+    ax = plt.subplots(figsize=(5.0, 4.2))[1]
+    size = max(abs(values).max(), 1e-12)
+    shade = ax.contourf(np.degrees(t2), np.degrees(t3), values, np.linspace(-size, size, 13), cmap="gray", alpha=0.55)
+    ax.figure.colorbar(shade, ax=ax, label="your determinant (m³)")
+    if values.min() < 0 < values.max():
+        ax.contour(np.degrees(t2), np.degrees(t3), values, [0], colors=INK, linewidths=2)
+    ax.axhline(0, color=SOFT, lw=0.8, ls=(0, (3, 2)))
+    ticks = (-180, -90, 0, 90, 180)
+    ax.set(xlabel=r"$\theta_2$ (degrees)", ylabel=r"$\theta_3$ (degrees)", xticks=ticks, yticks=ticks)
+    return ax
+
+
+@own_result
+def show_free_direction(direction, table, q):
+    """A robot moved to and fro along a direction of its joint space, and how far the hand goes with it.
+
+    Parameters
+    ----------
+    direction : as many entries as joints
+    table : function of the joint values -> rows [sigma, a, alpha, d, theta]
+    q : joint values to start from, in radians
+
+    Returns
+    -------
+    matplotlib Axes (3D)
+    """
+    step = numbers(direction, "direction", (len(q),), {})
+    if not step.any():
+        raise ValueError("direction: expected numbers that are not all zero")
+    step = step / np.linalg.norm(step)
+    moved = [table(*(np.array(q) + angle * step)) for angle in (-0.6, -0.2, 0.2, 0.6)]
+    hands = np.array([chain_frames(each)[-1] for each in moved])
+    far = max(np.linalg.norm(hand[:3, 3] - hands[0, :3, 3]) for hand in hands)
+    turn = max(np.degrees(np.arccos(np.clip((np.trace(hand[:3, :3].T @ hands[0, :3, :3]) - 1) / 2, -1, 1))) for hand in hands)
+    ax = draw_posture_family(moved)
+    rest = far < 1e-6 and turn < 1e-3
+    ax.figure.text(0.5, 0.01, "the hand stays" if rest else f"the hand moves: by {far:.3f} m and {turn:.0f}°", ha="center")
+    return ax
