@@ -397,6 +397,31 @@ def _crowding(centre, half, others, obstacles, frame) -> float:
     return cost + 1.5 * outside.sum()
 
 
+def fill_panel(ax, points, share=0.78):
+    """Show `points` as large as the panel allows, centred."""
+    points = np.asarray(points, float)
+    low, high = points.min(axis=0), points.max(axis=0)
+    centre, half = (low + high) / 2, np.full(3, (high - low).max() / 2)
+    for _ in range(2):
+        for setter, c, h in zip((ax.set_xlim, ax.set_ylim, ax.set_zlim), centre, half):
+            setter(c - h, c + h)
+        ax.set_box_aspect((1, 1, 1), zoom=1)
+        ax.apply_aspect()
+        on_paper = ax.transData.transform(np.column_stack(proj3d.proj_transform(*points.T, ax.get_proj())[:2]))
+        box = ax.get_window_extent()
+        room = ax.figure.bbox.size * ax.get_position(original=True).size
+        half = half * max(np.ptp(on_paper, axis=0) / (share * room))
+        middle = (on_paper.min(axis=0) + on_paper.max(axis=0)) / 2 - (box.p0 + box.p1) / 2
+        elev, azim = np.radians([ax.elev, ax.azim])
+        right = np.array([-np.sin(azim), np.cos(azim), 0])
+        up = np.array([-np.sin(elev) * np.cos(azim), -np.sin(elev) * np.sin(azim), np.cos(elev)])
+        start, end = (ax.transData.transform(proj3d.proj_transform(*p, ax.get_proj())[:2]) for p in (centre, centre + right))
+        scale = np.hypot(*(end - start))
+        centre = centre + (middle[0] * right + middle[1] * up) / scale
+    for setter, c, h in zip((ax.set_xlim, ax.set_ylim, ax.set_zlim), centre, half):
+        setter(c - h, c + h)
+
+
 # ---------------------------------------------------------------- drawings
 
 
@@ -454,9 +479,16 @@ def draw_chain(
         extent += _draw_frames(ax, robot.frames[list(shown)], [names[i] for i in shown], size, labels)
     if normals:
         _draw_normals(ax, robot, rows, labels, names)
-    strokes.fit_3d(ax, np.vstack(extent), own, pad=0.42)
+    _fit(ax, np.vstack(extent), own)
     labels.place(ax)
     return ax
+
+
+def _fit(ax, extent, own):
+    if own:
+        strokes.fit_3d(ax, extent, own, pad=0.42)
+    else:
+        fill_panel(ax, extent)
 
 
 def _indices(frames, count) -> list[int]:
@@ -626,6 +658,6 @@ def draw_chain_postures(rows, joints, solutions, values=None, ax=None, *, tool=F
         (ax.figure if own else ax).legend(handles=handles, fontsize=9, **(below if own else {"loc": "upper left"}))
     else:
         strokes.write_3d(ax, (0, 0, 0), "no posture")
-    strokes.fit_3d(ax, extent, own, pad=0.42)
+    _fit(ax, extent, own)
     labels.place(ax)
     return ax

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import matplotlib.pyplot as plt
 import numpy as np
-from mpl_toolkits.mplot3d import proj3d
 
 from .. import strokes
-from .chains import Bodies, Labels
+from .chains import Bodies, Labels, fill_panel
 
 THIN = (0, (3, 2))
 
@@ -48,7 +47,18 @@ def _as_line(line, what):
 
 @strokes.styled
 def draw_two_axes(
-    first, second, ax=None, *, names=("1", "2"), normal=True, frame=True, angle=True, body=True, base=False, view=(20, -58)
+    first,
+    second,
+    ax=None,
+    *,
+    names=("1", "2"),
+    normal=True,
+    frame=True,
+    angle=True,
+    body=True,
+    base=False,
+    points=None,
+    view=(20, -58),
 ):
     """Two joint axes as lines, the link that joins them, their common normal and the frame that it gives to the first.
 
@@ -64,6 +74,8 @@ def draw_two_axes(
         Draw the joints and the link between them.
     base : bool
         Draw the frame in which points and directions are given.
+    points : (text, text), optional
+        Names of the two points.
     view : (elevation, azimuth), in degrees
 
     Returns
@@ -73,13 +85,14 @@ def draw_two_axes(
     first, second = _as_line(first, "first axis"), _as_line(second, "second axis")
     own, ax = ax is None, ax or strokes.new_axes_3d(*view)
     labels = Labels()
-    extent = _two_axes(ax, labels, first, second, names, normal=normal, frame=frame, angle=angle, body=body, base=base)
+    parts = {"normal": normal, "frame": frame, "angle": angle, "body": body, "base": base, "points": points}
+    extent = add_two_axes(ax, labels, first, second, names, **parts)
     strokes.fit_3d(ax, extent, own, pad=0.42)
     labels.place(ax)
     return ax
 
 
-def _two_axes(ax, labels, first, second, names=("1", "2"), *, normal, frame, angle, body, base=False):
+def add_two_axes(ax, labels, first, second, names=("1", "2"), *, normal, frame, angle, body, base=False, points=None):
     """The drawing of two axes; returns the points that a view must hold."""
     feet, _ = common_normal(first, second)
     (p, u), (q, v) = first, second
@@ -98,28 +111,38 @@ def _two_axes(ax, labels, first, second, names=("1", "2"), *, normal, frame, ang
         places = [(spot - foot) @ along for spot in ((at, foot) if normal or body else (at,))]
         low, high = foot + (min(places) - 0.25 * unit) * along, foot + (max(places) + 0.5 * unit) * along
         ax.plot(*zip(low, high), color=strokes.SOFT, lw=1, ls=strokes.CENTRE_LINE, zorder=2)
-        _axis(ax, labels, high - 0.27 * unit * along, along, 0.27 * unit, "z", name)
+        add_axis(ax, labels, high - 0.27 * unit * along, along, 0.27 * unit, "z", name)
         labels.avoid(np.linspace(low, high, 12))
         extent.append(np.array([low, high]))
+    for at, along, name in zip((p, q), (u, v), points or ()):
+        ax.plot(*at[:, None], "o", ms=4.5, color=strokes.INK, zorder=8)
+        labels.ask(at, f"${name}$", np.cross(along, towards(ax)), gap=12)
+    if not normal and not frame and not angle:
+        return np.vstack([*extent, *_base(ax, labels, base, unit)])
     x = link_direction(first, second)
     if normal:
         _normal(ax, labels, feet, u, v, x, i, unit)
     if frame:
         size = 0.3 * unit
         for letter, along in (("x", x), ("y", np.cross(u, x))):
-            _axis(ax, labels, feet[0], along, size, letter, i)
+            add_axis(ax, labels, feet[0], along, size, letter, i)
             extent.append((feet[0] + size * along)[None])
     alpha = np.arctan2(np.cross(u, v) @ x, u @ v)
     if angle and abs(np.sin(alpha)) > 1e-6:
         size = 0.36 * unit
         ax.plot(*zip(feet[1], feet[1] + 1.1 * size * u), color=strokes.SOFT, lw=1, ls=THIN, zorder=3)
-        _arc(ax, labels, feet[1], u, np.cross(x, u), 0.8 * size, alpha, rf"\alpha_{{{i}}}")
+        add_arc(ax, labels, feet[1], u, np.cross(x, u), 0.8 * size, alpha, rf"\alpha_{{{i}}}")
         extent.append((feet[1] + 1.1 * size * u)[None])
-    if base:
-        for letter, along in zip("xyz", np.eye(3)):
-            _axis(ax, labels, np.zeros(3), along, 0.25 * unit, letter, "0")
-        extent.append(0.25 * unit * np.eye(3))
-    return np.vstack(extent)
+    return np.vstack([*extent, *_base(ax, labels, base, unit)])
+
+
+def _base(ax, labels, wanted, unit):
+    """The frame in which the lines are given; the points that a view must hold."""
+    if not wanted:
+        return []
+    for letter, along in zip("xyz", np.eye(3)):
+        add_axis(ax, labels, np.zeros(3), along, 0.25 * unit, letter, "0")
+    return [0.25 * unit * np.eye(3)]
 
 
 def link_direction(first, second) -> np.ndarray:
@@ -142,13 +165,13 @@ def _normal(ax, labels, feet, u, v, x, name, unit):
         for foot, along, way in ((feet[0], u, x), (feet[1], v, -x)):
             corner = foot + 0.05 * unit * np.array([along, along + way, way])
             ax.plot(*corner.T, color=strokes.INK, lw=0.9, zorder=4)
-        labels.ask(feet.mean(axis=0), f"$a_{{{name}}}$", np.cross(x, _towards(ax)), gap=7)
+        labels.ask(feet.mean(axis=0), f"$a_{{{name}}}$", np.cross(x, towards(ax)), gap=7)
         labels.avoid(np.linspace(*feet, 12))
     ax.plot(*feet[0][:, None], "o", ms=5.5, color=strokes.INK, zorder=8)
     labels.ask(feet[0], f"$O_{{{name}}}$", -x - 0.6 * u, gap=7)
 
 
-def _axis(ax, labels, origin, along, size, letter, name, width=2.0, out=None):
+def add_axis(ax, labels, origin, along, size, letter, name, width=2.0, out=None):
     """One axis of a frame, with its label past the tip or on the side `out`."""
     end = origin + size * along
     strokes.arrow_3d(ax, origin, end, strokes.AXIS_COLOURS[letter], strokes.AXIS_DASHES[letter], width=width)
@@ -156,12 +179,12 @@ def _axis(ax, labels, origin, along, size, letter, name, width=2.0, out=None):
     labels.avoid(np.linspace(origin, end, 7)[1:])
 
 
-def _towards(ax):
+def towards(ax):
     elev, azim = np.radians([ax.elev, ax.azim])
     return np.array([np.cos(elev) * np.cos(azim), np.cos(elev) * np.sin(azim), np.sin(elev)])
 
 
-def _arc(ax, labels, centre, start, side, radius, sweep, label, colour=strokes.INK):
+def add_arc(ax, labels, centre, start, side, radius, sweep, label, colour=strokes.INK):
     """Arc of an angle with its arrow head; the label is placed with the others."""
     turn = np.linspace(0, sweep, 40)
     arc = centre + radius * (np.outer(np.cos(turn), start) + np.outer(np.sin(turn), side))
@@ -175,7 +198,7 @@ def _arc(ax, labels, centre, start, side, radius, sweep, label, colour=strokes.I
 # ---------------------------------------------------------------- several small spaces in one figure
 
 
-def _panels(titles, width=3.5, height=3.6, columns=None, view=(20, -58)):
+def panels_3d(titles, width=3.5, height=3.6, columns=None, view=(20, -58)):
     """Spaces side by side in one figure, a title over each; `width` and `height` of each in inches."""
     count = len(titles)
     columns = columns or count
@@ -194,31 +217,6 @@ def _panels(titles, width=3.5, height=3.6, columns=None, view=(20, -58)):
     return axes
 
 
-def _fill(ax, points, share=0.78):
-    """Show `points` as large as the panel allows, centred."""
-    points = np.asarray(points, float)
-    low, high = points.min(axis=0), points.max(axis=0)
-    centre, half = (low + high) / 2, np.full(3, (high - low).max() / 2)
-    for _ in range(2):
-        for setter, c, h in zip((ax.set_xlim, ax.set_ylim, ax.set_zlim), centre, half):
-            setter(c - h, c + h)
-        ax.set_box_aspect((1, 1, 1), zoom=1)
-        ax.apply_aspect()
-        on_paper = ax.transData.transform(np.column_stack(proj3d.proj_transform(*points.T, ax.get_proj())[:2]))
-        box = ax.get_window_extent()
-        room = ax.figure.bbox.size * ax.get_position(original=True).size
-        half = half * max(np.ptp(on_paper, axis=0) / (share * room))
-        middle = (on_paper.min(axis=0) + on_paper.max(axis=0)) / 2 - (box.p0 + box.p1) / 2
-        elev, azim = np.radians([ax.elev, ax.azim])
-        right = np.array([-np.sin(azim), np.cos(azim), 0])
-        up = np.array([-np.sin(elev) * np.cos(azim), -np.sin(elev) * np.sin(azim), np.cos(elev)])
-        start, end = (ax.transData.transform(proj3d.proj_transform(*p, ax.get_proj())[:2]) for p in (centre, centre + right))
-        scale = np.hypot(*(end - start))
-        centre = centre + (middle[0] * right + middle[1] * up) / scale
-    for setter, c, h in zip((ax.set_xlim, ax.set_ylim, ax.set_zlim), centre, half):
-        setter(c - h, c + h)
-
-
 @strokes.styled
 def draw_axis_cases():
     """The three cases of two neighbouring axes side by side: skew, intersecting, parallel.
@@ -235,15 +233,15 @@ def draw_axis_cases():
         ("intersecting", ((0, 0, -0.45), z), ((0.42, 0, -0.25), (0.86, 0, -0.51))),
         ("parallel", ((0, 0, 0), z), ((0.9, 0, 0.2), z)),
     )
-    panels = _panels([kind for kind, *_ in cases], width=3.4, height=4.0)
+    panels = panels_3d([kind for kind, *_ in cases], width=3.4, height=4.0)
     for ax, (kind, first, second) in zip(panels, cases):
         first, second = _as_line(first, "axis"), _as_line(second, "axis")
         labels = Labels()
-        extent = [_two_axes(ax, labels, first, second, normal=True, frame=False, angle=kind != "parallel", body=False)]
+        extent = [add_two_axes(ax, labels, first, second, normal=True, frame=False, angle=kind != "parallel", body=False)]
         feet, _ = common_normal(first, second)
         unit = np.linalg.norm(np.ptp(extent[0], axis=0))
         x, size = link_direction(first, second), 0.2 * unit
-        _axis(ax, labels, feet[0], x, size, "x", "1")
+        add_axis(ax, labels, feet[0], x, size, "x", "1")
         extent.append(feet[:1] + size * x)
         if kind == "intersecting":
             strokes.arrow_3d(ax, feet[0], feet[0] - size * x, strokes.AXIS_COLOURS["x"], width=0.9)
@@ -253,7 +251,7 @@ def draw_axis_cases():
             for rise in (-0.25, 0.22, 0.44):
                 ax.plot(*(feet + rise * z).T, color=strokes.SOFT, lw=1, ls=THIN, zorder=3)
                 ax.plot(*(feet[0] + rise * z)[:, None], "o", ms=4, mfc="white", mec=strokes.SOFT, zorder=7)
-        _fill(ax, np.vstack(extent))
+        fill_panel(ax, np.vstack(extent))
         labels.place(ax)
     return panels
 
@@ -308,10 +306,10 @@ def draw_parameter_steps(a=1.0, alpha=np.radians(40), d=0.9, theta=np.radians(50
         r"$d_i$: from $X_{i-1}$ to $X_i$ along $Z_i$",
         r"$\theta_i$: from $X_{i-1}$ to $X_i$ about $Z_i$",
     )
-    panels = _panels(titles, width=4.2, height=3.9, columns=2)
+    panels = panels_3d(titles, width=4.2, height=3.9, columns=2)
     for ax, step in zip(panels, STEPS):
         labels = Labels()
-        _fill(ax, _parameter(ax, labels, step, *values), share=0.8)
+        fill_panel(ax, _parameter(ax, labels, step, *values), share=0.8)
         labels.place(ax)
     return panels
 
@@ -338,7 +336,7 @@ def _parameter(ax, labels, step, a, alpha, d, theta):
     ):  # fmt: skip
         asked = letter == ("z" if step in ("a", "alpha") else "x")
         out = -z0 if (letter, name) == ("x", "i-1") else None
-        _axis(ax, labels, at, along, length, letter, name, 2.4 if asked else 1.3, out)
+        add_axis(ax, labels, at, along, length, letter, name, 2.4 if asked else 1.3, out)
         extent.append((at + length * along)[None])
     for at, name, out in ((np.zeros(3), "i-1", -x0 - z0), (origin, "i", side - x1)):
         ax.plot(*at[:, None], "o", ms=5, color=strokes.INK, zorder=7)
@@ -347,13 +345,13 @@ def _parameter(ax, labels, step, a, alpha, d, theta):
         _measure(ax, labels, np.zeros(3), foot, "a_{i-1}", z0)
     elif step == "alpha":
         ax.plot(*zip(foot, foot + 0.85 * z0), color=strokes.AXIS_COLOURS["z"], lw=1, ls=THIN, zorder=2)
-        _arc(ax, labels, foot, z0, -np.array([0, 1.0, 0]), 0.6, alpha, r"\alpha_{i-1}")
+        add_arc(ax, labels, foot, z0, -np.array([0, 1.0, 0]), 0.6, alpha, r"\alpha_{i-1}")
         extent.append((foot + 0.85 * z0)[None])
     elif step == "d":
         _measure(ax, labels, foot, origin, "d_i", x0)
     else:
         ax.plot(*zip(origin, origin + 0.62 * x0), color=strokes.AXIS_COLOURS["x"], lw=1, ls=THIN, zorder=2)
-        _arc(ax, labels, origin, x0, side, 0.42, theta, r"\theta_i")
+        add_arc(ax, labels, origin, x0, side, 0.42, theta, r"\theta_i")
         extent.append((origin + 0.62 * x0)[None])
     return np.vstack(extent)
 
@@ -397,7 +395,7 @@ def draw_gripper(opening=0.5, ax=None):
     bodies.draw(ax)
     labels = Labels()
     for letter, along, size in (("x", x, 0.5), ("y", y, 0.72), ("z", z, 0.38)):
-        _axis(ax, labels, np.zeros(3), along, size, letter, "E", width=2.2)
+        add_axis(ax, labels, np.zeros(3), along, size, letter, "E", width=2.2)
     ax.plot(0, 0, 0, "o", ms=5.5, color=strokes.INK, zorder=8)
     labels.ask(np.zeros(3), "$O_{E}$", -x + 0.3 * z, gap=8)
     for way in (-1, 1):
