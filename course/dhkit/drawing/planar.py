@@ -312,7 +312,7 @@ def mark_frame_2d(ax, frame, name, size):
 
 
 @strokes.styled
-def mark_hands(ax, lengths, solutions, headings, target, heading, notes):
+def mark_hands(ax, lengths, solutions, headings, target, heading, notes, name=r"\theta"):
     """Directions of the hand over `draw_postures`: one arrow per posture, the wanted direction dashed.
 
     Parameters
@@ -326,6 +326,8 @@ def mark_hands(ax, lengths, solutions, headings, target, heading, notes):
         Wanted direction.
     notes : sequence of k texts
         Added to the legend entries.
+    name : text
+        Name of the direction in mathematical notation.
     """
     total = sum(lengths)
     goal = strokes.as_numbers(target, "target", (2,))
@@ -341,7 +343,7 @@ def mark_hands(ax, lengths, solutions, headings, target, heading, notes):
         )
     end = goal + 0.42 * total * strokes.unit_vector(heading)
     ax.plot(*zip(goal, end), color=strokes.INK, lw=1.2, ls=(0, (2, 2)), zorder=7)
-    strokes.write(ax, end + 0.05 * total * strokes.unit_vector(heading), r"wanted $\theta$", fontsize=10)
+    strokes.write(ax, end + 0.05 * total * strokes.unit_vector(heading), f"wanted ${name}$", fontsize=10)
     legend = ax.get_legend()
     if legend:
         labels = [f"{text.get_text()},  {note}" for text, note in zip(legend.get_texts(), notes)]

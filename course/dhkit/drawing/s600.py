@@ -152,7 +152,13 @@ def _seen_along_z(ax, at, name, unit, *, towards):
 
 
 @strokes.styled
-def draw_type8(q=(np.radians(30), np.radians(50)), lengths=LENGTHS, ax=None, *, names=("d_2", "d_3")):
+def draw_type8(
+    q=(np.radians(30), np.radians(50)),
+    lengths=LENGTHS,
+    ax=None,
+    *,
+    names=("d_2", "d_3", r"\theta_1", r"\theta_2", "x", "y"),
+):
     """B_1 and B_2: the hand seen from the first link, ahead of its axis and to the left of it.
 
     Parameters
@@ -160,8 +166,8 @@ def draw_type8(q=(np.radians(30), np.radians(50)), lengths=LENGTHS, ax=None, *, 
     q : array-like, shape (2,), in radians
         t1 and t2.
     lengths : array-like, shape (2,), in metres
-    names : two texts
-        Names of the lengths in mathematical notation.
+    names : six texts
+        Names of the lengths, the angles and the coordinates of the hand, in mathematical notation.
 
     Returns
     -------
@@ -185,12 +191,12 @@ def draw_type8(q=(np.radians(30), np.radians(50)), lengths=LENGTHS, ax=None, *, 
     ax.plot(*zip((0, 0), points[2]), color=strokes.INK, lw=1.2, ls=(0, (1, 1.5)), zorder=2)
     strokes.axis_arrow(ax, (0, 0), 0, 0.32 * unit, "x", "x_0")
     strokes.axis_arrow(ax, (0, 0), np.pi / 2, 0.3 * unit, "y", "y_0")
-    strokes.dimension(ax, (0, 0), foot, f"B_1 = {names[0]} + {names[1]}\\cos\\theta_2", -0.3 * unit)
-    strokes.write(ax, (foot + points[2]) / 2 + 0.19 * unit * ahead, f"$B_2 = {names[1]}\\sin\\theta_2$")
-    strokes.angle_arc(ax, (0, 0), 0.2 * unit, 0, t1, r"\theta_1", 1.3)
-    strokes.angle_arc(ax, points[1], 0.14 * unit, t1, t2, r"\theta_2", 1.4)
+    strokes.dimension(ax, (0, 0), foot, f"B_1 = {names[0]} + {names[1]}\\cos {names[3]}", -0.3 * unit)
+    strokes.write(ax, (foot + points[2]) / 2 + 0.19 * unit * ahead, f"$B_2 = {names[1]}\\sin {names[3]}$")
+    strokes.angle_arc(ax, (0, 0), 0.2 * unit, 0, t1, names[2], 1.3)
+    strokes.angle_arc(ax, points[1], 0.14 * unit, t1, t2, names[3], 1.4)
     strokes.write(ax, points[1] / 2 + 0.07 * unit * left, f"${names[0]}$")
     strokes.write(ax, (points[1] + points[2]) / 2 + 0.08 * unit * strokes.unit_vector(t1 + t2 + np.pi / 2), f"${names[1]}$")
-    strokes.write(ax, points[2] + (0, 0.07 * unit), "$(x, y)$")
+    strokes.write(ax, points[2] + (0, 0.07 * unit), f"$({names[4]}, {names[5]})$")
     ax.margins(0.08)
     return ax

@@ -1,0 +1,157 @@
+"""A student's result on the Adept s600."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+
+from .. import drawing
+from ..drawing.chains import draw_chain
+from ..strokes import fit_3d, in_degrees
+from .own_result import called, entries, numbers, own_result
+from .planar import show_inverse
+from .tables import dhm, say_if_not_rigid
+
+
+def _rows(values):
+    return [
+        [0, 0, 0, 0, values["t1"]],
+        [0, values["d2"], 0, 0, values["t2"]],
+        [1, values["d3"], 0, values["r3"] + values["r30"], 0],
+        [0, 0, np.pi, 0, values["t4"]],
+    ]
+
+
+@own_result
+def show_on_s600(answer, values: dict[str, float], base="0"):
+    """A hand frame beside the s600 in the posture given by `values`: it belongs on the flange, with Z_4 down.
+
+    Parameters
+    ----------
+    answer : 4x4 matrix, SymPy or numbers
+    values : dict
+        Numbers for t1, t2, t4 (radians), r3, d2, d3, r30 (metres).
+    base : "0" or "1"
+        Frame from which the answer is seen. For "1" the robot is drawn with t1 = 0, so that its base is frame 1.
+
+    Returns
+    -------
+    matplotlib Axes (3D)
+    """
+    return _marked(numbers(answer, "transform", (4, 4), values), values | ({"t1": 0.0} if base == "1" else {}))
+
+
+@own_result
+def show_classic(table, values: dict[str, float]):
+    """The hand frame that a classic table [a, alpha, d, theta] leads to, beside the s600.
+
+    Parameters
+    ----------
+    table : four rows of four entries, SymPy or numbers
+    values : dict
+        As for `show_on_s600`.
+
+    Returns
+    -------
+    matplotlib Axes (3D)
+    """
+    hand = np.eye(4)
+    for a, alpha, d, theta in numbers(table, "table", (4, 4), values):
+        hand = hand @ dhm(0, 0, d, theta) @ dhm(a, alpha, 0, 0)
+    return _marked(hand, values)
+
+
+def _marked(frame, values):
+    size = 0.28 * (values["d2"] + values["d3"])
+    ax = draw_chain(_rows(values), frames=(), axes=False)
+    drawing.mark_frame(ax, frame, "4", size)
+    robot = np.array(list(product(ax.get_xlim(), ax.get_ylim(), ax.get_zlim())))
+    fit_3d(ax, np.vstack([robot, frame[:3, 3] + 1.35 * size * frame[:3, :3].T]), True)
+    say_if_not_rigid(ax, frame)
+    return ax
+
+
+@own_result
+def show_linear(answer, lengths, target):
+    """Both arms that a formula for the cosine and the sine of t1 gives for one target, t2 being right.
+
+    Parameters
+    ----------
+    answer : two expressions [cos_i, sin_i] in X, Y, Z1, Z2, tj
+    lengths, target : (float, float), in metres
+        The target lies between the limits of reach.
+
+    Returns
+    -------
+    matplotlib Axes
+        Both arms end on the target; the lengths of (cos, sin) stand in the title.
+    """
+    (l2, l3), (x, y) = lengths, target
+    found = [answer[name] for name in ("cos_i", "sin_i")] if isinstance(answer, dict) else answer
+    elbow = np.arccos((x**2 + y**2 - l2**2 - l3**2) / (2 * l2 * l3))
+    given = {"X": l2, "Y": l3, "Z1": x, "Z2": y}
+    pairs = [numbers(found, "cos_i, sin_i", (2,), given | {"tj": bend}) for bend in (elbow, -elbow)]
+    rows = [(np.arctan2(pair[1], pair[0]), bend) for pair, bend in zip(pairs, (elbow, -elbow))]
+    ax = drawing.draw_postures(lengths, rows, target)
+    ax.set_title("cos² + sin² = " + " and ".join(f"{pair @ pair:.4g}" for pair in pairs))
+    return ax
+
+
+@own_result
+def show_mgi(mgi, lengths, r30=-0.05):
+    """How many arm postures an inverse model returns over the plane, and where one of them misses its target.
+
+    Parameters
+    ----------
+    mgi : function (x, y, z, omega, d2, d3, r30) -> list of (t1, t2, r3, t4)
+    lengths : (float, float), in metres
+    r30 : float, in metres
+
+    Returns
+    -------
+    matplotlib Axes
+        The number of poses whose height or direction is missed stands in the title.
+    """
+    z, omega, missed = -0.12, 0.6, []
+
+    def arm(x, y, l2, l3):
+        rows = called(mgi, x, y, z, omega, l2, l3, r30)
+        rows = numbers([list(row) for row in rows], "mgi", (None, 4), {}) if len(rows) else np.empty((0, 4))
+        turned = (rows[:, 0] + rows[:, 1] - rows[:, 3] - omega + np.pi) % (2 * np.pi) - np.pi
+        if (np.abs(turned) > 1e-6).any() or (np.abs(rows[:, 2] + r30 - z) > 1e-6).any():
+            missed.append((x, y))
+        return rows[:, :2].tolist()
+
+    # Asked once here: an untouched function shows a card, and an exception its own words.
+    arm(0.8 * sum(lengths), 0.1, *lengths)
+    missed.clear()
+    ax = show_inverse(arm, lengths)
+    if missed:
+        ax.set_title(f"height or direction missed at {len(missed)} poses")
+    return ax
+
+
+@own_result
+def show_configurations(answer, lengths, target, omega):
+    """Configurations of the s600 from above, with the direction of x_4 and the wanted one.
+
+    Parameters
+    ----------
+    answer : rows (t1, t2, r3, t4), in radians and metres
+    lengths, target : (float, float), in metres
+    omega : float, in radians
+        Wanted direction of x_4.
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    if len(entries(answer)) == 4:
+        answer = [entries(answer)]
+    rows = numbers([list(row) for row in answer], "configurations", (None, 4), {})
+    ax = drawing.draw_postures(lengths, rows[:, :2], target)
+    notes = [f"$r_3$ = ${row[2]:.3f}$ m,  $\\theta_4$ = {in_degrees(row[3])}" for row in rows]
+    hands = [row[0] + row[1] - row[3] for row in rows]
+    drawing.mark_hands(ax, lengths, rows[:, :2], hands, target, omega, notes, r"\omega")
+    return ax
