@@ -12,6 +12,8 @@ from .. import strokes
 from .frames import merged_axes
 
 SYMBOLS = {"trans_x": "a", "rot_x": r"\alpha", "trans_z": "d", "rot_z": r"\theta"}
+MODIFIED = ("trans_x", "rot_x", "trans_z", "rot_z")
+CLASSIC = ("rot_z", "trans_z", "trans_x", "rot_x")
 VIEW = {"elev": 20, "azim": -58}
 
 

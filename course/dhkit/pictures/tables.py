@@ -7,9 +7,12 @@ import numpy as np
 import sympy
 from matplotlib.mathtext import MathTextParser
 
-from .. import drawing
+from .. import drawing, strokes
+from ..drawing import chains
+from ..drawing.tables import draw_joint_origins
+from ..drawing.transforms import CLASSIC, walk_frames
 from ..strokes import INK
-from .own_result import numbers, own_result
+from .own_result import called, numbers, own_result
 
 COLUMNS = ("i", r"\sigma_i", r"a_{i-1}", r"\alpha_{i-1}", "d_i", r"\theta_i")
 
@@ -103,4 +106,151 @@ def say_if_not_rigid(ax, frame):
     rotation = frame[:3, :3]
     rigid = np.allclose(rotation.T @ rotation, np.eye(3), atol=1e-6) and np.allclose(frame[3], (0, 0, 0, 1), atol=1e-6)
     if not rigid:
-        ax.figure.text(0.5, 0.01, "not a rigid displacement: the axes are not orthogonal unit vectors", ha="center")
+        fault = "the axes are not orthogonal unit vectors"
+    elif np.linalg.det(rotation) < 0:
+        fault = "the axes are left-handed, a mirror image"
+    else:
+        return
+    ax.figure.text(0.5, 0.01, f"not a rigid displacement: {fault}", ha="center")
+
+
+@own_result
+def show_chain(table, values: dict[str, float], names=None, frames=(), tool=False):
+    """The robot that a DHm table describes, as a body with its joint axes.
+
+    Parameters
+    ----------
+    table : rows [sigma, a, alpha, d, theta]
+    values : dict
+        Numbers for the symbols of the table, by name.
+    names, frames, tool
+        As for `drawing.chains.draw_chain`.
+
+    Returns
+    -------
+    matplotlib Axes (3D)
+    """
+    return chains.draw_chain(numbers(table, "table", (None, 5), values), names=names, frames=frames, tool=tool)
+
+
+@own_result
+def show_classic_rows(rows, table, values: dict[str, float]):
+    """The last frame of a classic table beside the robot of a modified one.
+
+    Parameters
+    ----------
+    rows : classic rows [a, alpha, d, theta]
+    table : modified rows [sigma, a, alpha, d, theta]
+        The robot as it is.
+    values : dict
+        Numbers for the symbols of both, by name.
+
+    Returns
+    -------
+    matplotlib Axes (3D)
+        The frame belongs where the robot's last frame is: Z along the hand.
+    """
+    cells = numbers(rows, "rows", (None, 4), values)
+    frame = np.eye(4)
+    for a, alpha, d, theta in cells:
+        frame = frame @ walk_frames(list(zip(CLASSIC, (theta, d, a, alpha))))[-1]
+    robot = numbers(table, "table", (None, 5), values)
+    ax = chains.draw_chain(robot, frames=())
+    size = 0.16 * np.abs(robot[:, [1, 3]]).sum()
+    drawing.mark_frame(ax, frame, str(len(cells)), size)
+    return ax
+
+
+@own_result
+def show_planar(planar, lengths, angles):
+    """The tip and the heading that a direct model gives, beside the planar arm.
+
+    Parameters
+    ----------
+    planar : function (lengths, angles) -> x, y, phi
+    lengths : list of n numbers, in metres
+    angles : list of n numbers, in radians
+
+    Returns
+    -------
+    matplotlib Axes
+        The cross belongs on the tip, the arrow along the last link.
+    """
+    x, y, phi = numbers(called(planar, list(lengths), list(angles)), "x, y, phi", (3,), {})
+    ax = strokes.new_axes((5.6, 4.2))
+    strokes.show_plane(ax)
+    strokes.arm(ax, drawing.planar_points(lengths, angles), strokes.POSTURE_SHADES[0])
+    reach = 0.3 * sum(lengths)
+    strokes.arrow(ax, (x, y), (x, y) + reach * strokes.unit_vector(phi), width=2, dashes=(0, (4, 2)))
+    strokes.target_mark(ax, (x, y))
+    ax.autoscale_view()
+    for at in ((x, y), (x, y) + reach * strokes.unit_vector(phi)):
+        strokes.keep_in_view(ax, at, 0.1 * sum(lengths))
+    return ax
+
+
+@own_result
+def show_freedoms(freedoms, tables: dict[str, list]):
+    """What a function counts for some robots, as a table.
+
+    Parameters
+    ----------
+    freedoms : function (rows) -> number
+    tables : dict
+        Rows [sigma, a, alpha, d, theta] of numbers, by the name of the robot.
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    counts = [numbers(called(freedoms, [list(row) for row in rows]), "freedoms", (), {}) for rows in tables.values()]
+    ax = plt.subplots(figsize=(5.6, 0.32 * (len(tables) + 2)))[1]
+    ax.axis("off")
+    lines = [("robot", "joints", "your freedoms")]
+    lines += [(name, str(len(rows)), f"{count:g}") for (name, rows), count in zip(tables.items(), counts)]
+    for j, line in enumerate(lines):
+        for x, text in zip((0.02, 0.66, 0.88), line):
+            ax.text(x, -j, text, ha="left" if x < 0.1 else "center", va="center")
+    for y in (0.5, -0.5, 0.5 - len(lines)):
+        ax.plot([0, 1], [y, y], color=INK, lw=1)
+    ax.set(xlim=(0, 1), ylim=(0.5 - len(lines), 0.5))
+    return ax
+
+
+@own_result
+def show_on_origins(table, origins, axes, values: dict[str, float]):
+    """The frames of a DHm table at zero, over the joint origins of a list, seen from the side (along y).
+
+    Parameters
+    ----------
+    table : rows [sigma, a, alpha, d, theta]
+    origins : array-like, shape (n, 3), in metres
+    axes : sequence of n texts
+        Direction of each joint axis, "x", "y" or "z"; "" where no joint is.
+    values : dict
+        Numbers for the symbols of the table, by name.
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    rows = numbers(table, "table", (None, 5), values)
+    return draw_joint_origins(origins, axes, names=[*range(1, len(axes)), "gripper"], frames=chains.chain_frames(rows))
+
+
+@own_result
+def show_gripper(transform):
+    """The gripper frame beside frame 6.
+
+    Parameters
+    ----------
+    transform : 4x4 matrix, lengths in metres
+
+    Returns
+    -------
+    matplotlib Axes (3D)
+    """
+    frame = numbers(transform, "transform", (4, 4), {})
+    ax = drawing.draw_frames_3d([np.eye(4), frame], ["6", "g"], size=0.12)
+    say_if_not_rigid(ax, frame)
+    return ax

@@ -8,11 +8,10 @@ import numpy as np
 
 from .. import strokes
 from ..drawing import transforms as drawing
+from ..drawing.transforms import CLASSIC, MODIFIED
 from .own_result import called, numbers, own_result
 from .tables import say_if_not_rigid
 
-MODIFIED = ("trans_x", "rot_x", "trans_z", "rot_z")
-CLASSIC = ("rot_z", "trans_z", "trans_x", "rot_x")
 SIZE = 0.5
 
 
