@@ -7,8 +7,11 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+import sympy
+from dhkit.curves import PEN_CURVES, pen_path
 from dhkit.drawing import pen
 from dhkit.drawing.chains import chain_frames
+from dhkit.pictures import pen as pictures
 from matplotlib.patches import Circle
 
 Q = np.radians([35, 20, 45])
@@ -75,3 +78,70 @@ def test_the_circles_on_the_sheet_are_points_of_the_surface():
 def test_bad_input_is_refused_in_words(draw, words):
     with pytest.raises(ValueError, match=words):
         draw()
+
+
+# ---------------------------------------------------------------- curves, and pictures of a student's own result
+
+
+@pytest.mark.parametrize("shape", PEN_CURVES)
+def test_a_curve_can_be_written_by_sharing_the_angle_only(shape):
+    """phi is beyond the stop of one joint somewhere, but never beyond those of both."""
+    turn, phi = np.degrees(pen_path(shape)).T
+    assert 70 < phi.min() and 90 < phi.max() < 135
+    assert np.allclose(pen.pen_curve(shape), pen.pen_tip(np.radians([turn, phi / 2, phi / 2]).T))
+
+
+def test_there_are_no_other_curves():
+    with pytest.raises(ValueError, match="one of eight, wave, spiral"):
+        pen_path("star")
+
+
+VALUES = pen.SIZES | {"t1": -0.4, "t2": 0.5, "t3": 1.2}
+CURVE = pen.pen_curve("eight", count=13)
+x, y, p1 = sympy.symbols("x y p1")
+
+
+def right_follow(px, py, pz):
+    side = pen.SIZES["h2"] + pen.SIZES["L2"]
+    rho = np.sqrt(px**2 + py**2 - side**2)
+    phi = np.arctan2(rho - pen.SIZES["L1"], pz - pen.SIZES["h1"])
+    return np.arctan2(py, px) - np.arctan2(side, rho), phi / 2, phi / 2
+
+
+PICTURES = {
+    "tip": (pictures.show_tip, (VALUES,), [0.1, 0.2, sympy.Symbol("h1")]),
+    "repaired": (lambda tip, values: pictures.show_tip(tip, values, repaired=True), (VALUES,), [0.4, 0.2]),
+    "height": (pictures.show_height, (pen.SIZES,), p1**2 - sympy.sqrt(x**2 + y**2 - 0.05)),
+    "circles": (pictures.show_circles, (pen.SIZES, 0.2), {"small": 0.2, "large": 0.5}),
+    "inverse": (pictures.show_pen_inverse, (pen.SIZES,), lambda *point: [(0.1, 0.2)]),
+    "follow": (pictures.show_trace, (CURVE, pen.SIZES), right_follow),
+}
+
+
+def words(ax):
+    labels = ax.get_legend_handles_labels()[1]
+    title = ax.figure.get_suptitle()
+    return " ".join([title, *(text.get_text() for text in ax.texts), *labels])
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_an_answer_is_drawn_and_nothing_is_said_to_be_nothing(name):
+    show, given, answer = PICTURES[name]
+    show(answer, *given).figure.canvas.draw()
+    untouched = (lambda *args: None) if callable(answer) else ...
+    assert "not attempted yet" in words(show(untouched, *given))
+    assert "cannot be drawn" in words(show("nonsense", *given))
+
+
+def test_the_trace_is_measured_and_the_stops_are_looked_at():
+    assert "mm from the curve" in words(pictures.show_trace(right_follow, CURVE, pen.SIZES))
+    greedy = lambda *point: (right_follow(*point)[0], 0.0, 2 * right_follow(*point)[2])  # noqa: E731
+    assert r"$\theta_3$ beyond the stop" in words(pictures.show_trace(greedy, CURVE, pen.SIZES))
+    turned = lambda *point: (right_follow(*point)[0] + 0.01, *right_follow(*point)[1:])  # noqa: E731
+    distance = 10 * np.hypot(*CURVE[:, :2].T).max()
+    assert f"at most {distance:.2g} mm" in words(pictures.show_trace(turned, CURVE, pen.SIZES))
+
+
+def test_a_solution_that_misses_is_counted():
+    assert "a solution misses (54)" in words(pictures.show_pen_inverse(lambda *point: [(0.1, 0.2)], pen.SIZES))
+    assert "no solution (54)" in words(pictures.show_pen_inverse(lambda *point: [], pen.SIZES))

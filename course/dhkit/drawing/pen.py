@@ -8,6 +8,7 @@ from matplotlib.patches import Circle, Wedge
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from .. import strokes
+from ..curves import pen_path
 from .chains import HAND, JOINT, LINK, Bodies, Labels
 
 # The sheet gives no numbers; these make the surface easy to see. Metres.
@@ -37,6 +38,12 @@ def pen_tip(q, sizes=SIZES, *, repaired=False) -> np.ndarray:
     out = L1 + p1 * np.sin(t2 + t3) + (L2 * np.sin(t2) if repaired else 0)
     up = h1 + p1 * np.cos(t2 + t3) + (L2 * np.cos(t2) if repaired else 0)
     return np.stack([out * np.cos(t1) - side * np.sin(t1), out * np.sin(t1) + side * np.cos(t1), up], axis=-1)
+
+
+def pen_curve(shape: str, sizes=SIZES, count: int = 121) -> np.ndarray:
+    """A curve on the surface of the pen robot: points (count, 3) in metres; `shape` is one of `dhkit.curves.PEN_CURVES`."""
+    turn, phi = pen_path(shape, count).T
+    return pen_tip(np.stack([turn, phi, 0 * phi], axis=-1), sizes)
 
 
 def _joints_in_space(q, sizes, repaired):
