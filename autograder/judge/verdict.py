@@ -187,7 +187,7 @@ def _judge_function(question: Question, evidence: Evidence, value: Value, varian
         other, family = _returned(question, steps, variant, args)
         if isinstance(student, Malformed) or isinstance(other, Malformed):
             return Comparison(isinstance(student, Malformed) and isinstance(other, Malformed), 0.0)
-        setting = _setting(question, variant, args)
+        setting = _setting(question, variant, args if not steps else None)
         return kind.compare(form, student, other, replace(setting, turn=turn, family=family and not steps))
 
     cases: dict[str, list[Comparison]] = {}
@@ -220,7 +220,22 @@ def _returned(question: Question, steps: tuple[Step, ...], variant: Variant, arg
 
 @lru_cache(maxsize=4096)
 def _function(question: Question, steps: tuple[Step, ...], variant: Variant) -> Callable:
-    return _taken(steps, question.reference(variant))
+    return _taken(steps, _function(question, (), variant)) if steps else _remembering(question.reference(variant))
+
+
+def _remembering(function: Callable) -> Callable:
+    """`function`, asked once for the same arguments: all mistakes of a tree are made from the same right results."""
+    known: dict[str, object] = {}
+
+    def answer(*args):
+        key = repr(args)
+        if key not in known:
+            if len(known) >= 256:
+                known.clear()
+            known[key] = function(*args)
+        return known[key]
+
+    return answer
 
 
 def _walk(question: Question, variant: Variant, against_reference: Comparison, matches: Matches) -> Verdict:
@@ -260,8 +275,10 @@ def _possible(matches: Matches, steps: tuple[Step, ...], turn: float) -> bool:
         return False
 
 
-def _setting(question: Question, variant: Variant, args: list | tuple = ()) -> Setting:
-    misses = question.misses and (lambda q: question.misses(q, variant, *args))
+def _setting(question: Question, variant: Variant, args: list | tuple | None = ()) -> Setting:
+    """How answers are compared; without `args` nobody asks how far a solution misses its target."""
+    asked = question.misses is not None and args is not None
+    misses = (lambda q: question.misses(q, variant, *args)) if asked else None
     return Setting(question.points, question.angles, question.tolerance, question.pinned, misses=misses)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from dhkit.forms import array_shape
 from dhkit.public import PublicQuestion
 
-from ..decode import Blank, Record
+from ..decode import Blank, Expression, Number, Record
 from ..evaluate import evaluate
 from .base import Comparison, Setting, describe, in_order, refuse
 from .entries import checked, flat
@@ -30,12 +30,17 @@ def read_solutions(question: PublicQuestion, value: object) -> np.ndarray:
     numbers = checked(question, flat(value)).expressions
     if any(isinstance(number, Blank) for number in numbers):
         raise refuse(question, "an entry that is not filled in")
-    values = np.array([evaluate(number, {})[0] for number in numbers])
+    values = np.array([_value(number) for number in numbers])
     if not np.isfinite(values).all():
         raise refuse(question, "a value that is not finite")
     if np.abs(values.imag).max(initial=0) > 1e-9:
         raise refuse(question, "a complex number")
     return values.real.reshape(-1, count)
+
+
+def _value(number: Expression) -> complex:
+    plain = isinstance(number, Number) and isinstance(number.value, float)
+    return number.value if plain else evaluate(number, {})[0]
 
 
 def compare_solutions(question: PublicQuestion, student: np.ndarray, other: np.ndarray, setting: Setting) -> Comparison:
