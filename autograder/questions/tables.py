@@ -220,7 +220,7 @@ QUESTIONS = (
                 "classic_wrist_not_seen",
                 0.6,
                 "**Look at the last row of the wrist**: as a modified row it puts axes 5 and 6 on one line. Read the rows the other "
-                "way, and compare with the matrices.",
+                "way.",
                 with_entry(3, MODIFIED),
                 with_entry(3, MIXED),
             ),
