@@ -222,7 +222,12 @@ QUESTIONS = (
                 "about X from one joint axis to the next.",
                 twist_as_length,
             ),
-            columns_exchanged("a", "alpha"),
+            columns_exchanged(
+                "a",
+                "alpha",
+                feedback="**The columns a and alpha are exchanged.** Their heads on the sheet do not help: look at the entries. Which "
+                "column can hold a length?",
+            ),
             offset_missing(2),
             tool_left_out(
                 feedback="**The pen is missing.** The last row must bring the origin from the last joint to the tip."
