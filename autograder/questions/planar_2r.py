@@ -19,6 +19,7 @@ from autograder.judge.misconceptions import (
     fails_on_limit,
     misprint,
     of_function,
+    option,
     posture_missing,
     product,
     reversed_product,
@@ -356,5 +357,26 @@ QUESTIONS = (
         group=where,
         misses=misses,
     ),
-    Question("planar_2r.centre", reference=lambda variant: "D"),
+    Question(
+        "planar_2r.centre",
+        reference=lambda variant: "D",
+        mistakes=(
+            option(
+                "A",
+                "formula_without_value",
+                "**That atan2(0, 0) has no value does not mean that the hand cannot be there.** Fold the arm: where does the hand lie?",
+            ),
+            option(
+                "B",
+                "folded_arm_only",
+                "**The elbow has one value, but the posture has two angles.** Fold the arm and turn joint 1: what does the hand do?",
+            ),
+            option(
+                "C",
+                "two_as_everywhere_else",
+                "**Two postures are the rule, and this point is the exception.** What becomes of the two elbow angles when the arm is "
+                "folded, and of the determinant that decides about t1?",
+            ),
+        ),
+    ),
 )

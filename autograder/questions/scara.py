@@ -18,6 +18,7 @@ from autograder.judge.misconceptions import (
     columns_exchanged,
     degrees,
     one_factor_missing,
+    option,
     posture_missing,
     product,
     reversed_product,
@@ -174,6 +175,26 @@ QUESTIONS = (
     Question(
         "scara.d2_sign",
         reference=lambda variant: "B",
+        mistakes=(
+            option(
+                "A",
+                "listing_believed",
+                "**Two witnesses that agree may share one slip.** Put the row of this table into the general matrix: does the printed "
+                "2T3 come out, and the printed z?",
+            ),
+            option(
+                "C",
+                "z3_turned_over",
+                "**An axis that points down leaves traces.** Put alpha = pi into the general matrix and look at its diagonal, not only "
+                "at the last column.",
+            ),
+            option(
+                "D",
+                "direction_is_free",
+                "**The direction of an axis is free to choose, but the choice shows in the matrix.** The printed 2T3 goes with one of "
+                "the two tables only.",
+            ),
+        ),
     ),
     Question(
         "scara.forward",
