@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from itertools import permutations, product
+from types import FunctionType
 
 import numpy as np
 from dhkit import public, wire
@@ -224,7 +225,12 @@ def _function(question: Question, steps: tuple[Step, ...], variant: Variant) -> 
 
 
 def _remembering(function: Callable) -> Callable:
-    """`function`, asked once for the same arguments: all mistakes of a tree are made from the same right results."""
+    """`function`, asked once for the same arguments: all mistakes of a tree are made from the same right results.
+
+    An object that can be called stays as it is, for steps that change what it is made of.
+    """
+    if not isinstance(function, FunctionType):
+        return function
     known: dict[str, object] = {}
 
     def answer(*args):
