@@ -7,9 +7,14 @@ import matplotlib
 matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
-from dhkit import drawing
+import numpy as np
+from autograder.reference import robots
+from dhkit.drawing.chains import draw_chain
+from dhkit.drawing.postures import draw_posture_gallery
 
 HERE = Path(__file__).parent
+Q = np.radians([-20, 55, -30, 20, 60, 0])
+REACH_OUT = np.radians([0, 15, -6, 40, 50, -30])
 
 
 def save(axes, name):
@@ -17,5 +22,11 @@ def save(axes, name):
     plt.close(axes.figure)
 
 
-save(drawing.draw_scara_3d(), "scara.png")
-save(drawing.draw_postures([0.5, 0.4], [(0.0838, 1.5828), (1.4426, -1.5828)], (0.46, 0.44)), "postures.png")
+def rx90(q):
+    """The DHm table of the RX-90 at joint angles q, as numbers."""
+    table = robots.RX90.table.at({**robots.RX90.table.values, **dict(zip(robots.RX90.table.joints, q))})
+    return [[row.sigma, *map(float, row.parameters)] for row in table.rows]
+
+
+save(draw_chain(rx90(Q), frames=(0, 3, 6)), "rx90.png")
+save(draw_posture_gallery([rx90(q) for q in robots.RX90.solve(robots.RX90.forward(REACH_OUT)).q]), "postures.png")
