@@ -19,7 +19,7 @@ from autograder.judge.misconceptions import (
     symbols_exchanged,
     transposed_rotation,
 )
-from autograder.reference.orientation import euler_angles, euler_matrix, rotation_angle_between, rpy, rpy_matrix
+from autograder.reference.orientation import euler_angles, euler_matrix, rotation, rotation_angle_between, rpy, rpy_matrix
 
 phi, theta, psi, e = sympy.symbols("phi theta psi e")
 R = sympy.Matrix(3, 3, lambda i, j: sympy.Symbol(f"r{i + 1}{j + 1}"))
@@ -72,6 +72,26 @@ def sign_in_the_pitch_only(found):
     """As printed: the second triple has another pitch, and roll and yaw of the first one."""
     first = found[0]
     return [first, [first[0], np.pi - first[1], first[2]]]
+
+
+# The top spins on by 30 degrees; the notebook says so.
+FORTH, BACK = rotation("z", np.radians(30)), rotation("z", np.radians(-30))
+
+
+def spun(variant) -> list:
+    """One triple (roll, pitch, yaw) of the student's top, turned about its own axle."""
+    return rpy(orientation(variant) @ FORTH).angles[0].tolist()
+
+
+def read_from(change):
+    """A step on a triple (roll, pitch, yaw): `change` takes its rotation matrix, and the triple is read from the result."""
+    return lambda angles: rpy(change(rpy_matrix(*angles))).angles[0].tolist()
+
+
+def roll_grows(angles):
+    """30 degrees are added to the roll of the top as it was before."""
+    roll, pitch, yaw = rpy(rpy_matrix(*angles) @ BACK).angles[0]
+    return [roll + np.radians(30), pitch, yaw]
 
 
 def locked(rng: np.random.Generator) -> dict[str, float]:
@@ -333,6 +353,37 @@ QUESTIONS = (
         angles=(0, 1, 2),
         tolerance=1e-3,
         misses=misses_rpy,
+    ),
+    Question(
+        "orientation.spun",
+        reference=spun,
+        mistakes=(
+            mistake(
+                "fixed_for_moving",
+                0.5,
+                "**Your top has turned about the vertical of the room.** More yaw does just that, and so does a factor on the left. Look "
+                "at the axle: may a turn about the axle move it?",
+                read_from(lambda matrix: FORTH @ matrix @ BACK),
+            ),
+            mistake(
+                "added_to_the_roll",
+                0.4,
+                "**Your top has turned about its own x axis.** More roll does just that. The letter of the proper rotation is the "
+                "letter of the roll here, but the axis is another one.",
+                roll_grows,
+            ),
+            mistake(
+                "transposed_rotation",
+                0.4,
+                "**These are the angles of the transposed matrix.** r32 stands in row 3, column 2.",
+                read_from(np.transpose),
+            ),
+            extrinsic_for_intrinsic(
+                feedback="**The angles come in the reverse order.** Asked for are (roll, pitch, yaw): about x, about y, about z."
+            ),
+            degrees(0, 1, 2),
+        ),
+        tolerance=1e-3,
     ),
     Question(
         "orientation.printed",

@@ -88,5 +88,10 @@ def test_an_answer_that_cannot_be_drawn_says_why(name, odd):
     assert not isinstance(ax, Axes3D) and "cannot be drawn" in said(ax)
 
 
+def test_a_triple_by_name_is_drawn_and_the_grey_axes_say_what_they_are():
+    ax = show_triples({"yaw": 0.8, "roll": 0.4, "pitch": 0.6}, "zyx", ROTATION, (2, 1, 0), grey="the top before")
+    assert apart(ax) < 0.01 and "the top before" in said(ax)
+
+
 def test_a_matrix_that_is_no_rotation_is_told():
     assert "no rotation" in said(show_rotation(2 * ROTATION, "zyx", SAMPLE, ORDER))

@@ -12,6 +12,7 @@ from .own_result import called, entries, numbers, own_result
 
 JOINT_NAMES = (r"\theta_4", r"\theta_5", r"\theta_6")
 COMPARED = "grey: %s; the brick and its coloured axes: %s"
+RPY = ("roll", "pitch", "yaw")
 
 
 @own_result
@@ -66,31 +67,33 @@ def show_rpy_entries(answer, values: dict[str, float]):
 
 
 @own_result
-def show_triples(answer, axes: str, rotation, order: Sequence[int] = (0, 1, 2), names=None):
-    """Triples of angles on the rings, one drawing each, with the axes that they should reach in grey.
+def show_triples(answer, axes: str, rotation, order: Sequence[int] = (0, 1, 2), names=None, grey="the wanted orientation"):
+    """Triples of angles on the rings, one drawing each, with the axes of another orientation in grey.
 
     Parameters
     ----------
-    answer : rows of three angles, in radians
+    answer : a row of three angles, or several, in radians; a row may be a dictionary of roll, pitch and yaw
     axes : str
         The set of moving axes that the rings stand for.
-    rotation : (3, 3), the wanted orientation
+    rotation : (3, 3), the orientation to compare with, as a rule the wanted one
     order : three indices
         Places of the angles in a row, outer ring first.
     names : three texts, optional
         Names of the angles in mathematical notation, outer ring first.
+    grey : str
+        What `rotation` is, in words.
 
     Returns
     -------
     matplotlib Axes (3D)
-        Every brick belongs on the grey axes.
+        Every brick belongs on the axes of the wanted orientation.
     """
-    if len(entries(answer)) == 3:
-        answer = [entries(answer)]
-    rows = numbers([list(row) for row in answer], "triples", (None, 3), {})[:4, list(order)]
+    rows = [answer] if isinstance(answer, dict) else [entries(answer)] if len(entries(answer)) == 3 else answer
+    rows = [[row[name] for name in RPY] if isinstance(row, dict) else list(row) for row in rows]
+    rows = numbers(rows, "triples", (None, 3), {})[:4, list(order)]
     named = {} if names is None else {"names": names}
     ax = draw_gimbal(rows, axes, wanted=np.asarray(rotation, float), **named)
-    _say(ax, COMPARED % ("the wanted orientation", "your angles"))
+    _say(ax, COMPARED % (grey, "your angles"))
     return ax
 
 
