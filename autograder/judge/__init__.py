@@ -7,7 +7,7 @@ only: nothing of a student's is executed here.
 from dhkit.wire import MIME
 
 from .decode import Malformed
-from .question import Family, Follow, Mistake, Question, Variant, mistake
+from .question import Family, Follow, Made, Mistake, Question, Variant, mistake
 from .verdict import Evidence, Verdict, judge, plain
 
-__all__ = ["MIME", "Evidence", "Family", "Follow", "Malformed", "Mistake", "Question", "Variant", "Verdict", "judge", "mistake", "plain"]
+__all__ = ["MIME", "Evidence", "Family", "Follow", "Made", "Malformed", "Mistake", "Question", "Variant", "Verdict", "judge", "mistake", "plain"]

@@ -59,6 +59,20 @@ def mistake(note: str, share: float, feedback: str, *steps: Step, turn: float = 
     return Mistake(note, share, feedback, steps, turn)
 
 
+class Made(list):
+    """A right answer that remembers what it was made of, for wrong steps that go wrong on the way to it.
+
+    ``Made(cloud, arm=arm)`` is the list ``cloud(arm=arm)``; ``but(arm=shorter)`` makes it again with something changed.
+    """
+
+    def __init__(self, make: Callable[..., list], **of) -> None:
+        super().__init__(make(**of))
+        self.make, self.of = make, of
+
+    def but(self, **change) -> Made:
+        return Made(self.make, **self.of | change)
+
+
 @dataclass(frozen=True)
 class Family:
     """Infinitely many joint solutions: some representatives of them. Every solution that reaches the target is right."""

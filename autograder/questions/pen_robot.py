@@ -8,7 +8,7 @@ import numpy as np
 import sympy
 from dhkit.curves import pen_path
 
-from autograder.judge import Family, Follow, Question, following, mistake
+from autograder.judge import Family, Follow, Made, Question, following, mistake
 from autograder.judge.misconceptions import (
     columns_exchanged,
     offset_missing,
@@ -60,17 +60,11 @@ def point_of_the_surface(rng: np.random.Generator) -> dict[str, float]:
     return {name: sizes[name] for name in ("x", "y", "L1", "h2", "L2", "p1")}
 
 
-class Circles(list):
-    """Radii on a sheet. A wrong step needs to know the robot that they were made of."""
-
-    def __init__(self, numbers, side=None, reverse=False):
-        self.numbers, self.side, self.reverse = numbers, side, reverse
-        sizes = {name: numbers[name] for name in LENGTHS} | ({} if side is None else {"h2": side, "L2": 0.0})
-        radii = list(_robot(**sizes).inverse.circles(sizes["h1"] - numbers["drop"]))
-        super().__init__(radii[::-1] if reverse else radii)
-
-    def but(self, **change):
-        return Circles(**{"numbers": self.numbers, "side": self.side, "reverse": self.reverse} | change)
+def circles(numbers, side=None, reverse=False) -> list[float]:
+    """Radii on the sheet; with the defaults right."""
+    sizes = {name: numbers[name] for name in LENGTHS} | ({} if side is None else {"h2": side, "L2": 0.0})
+    radii = list(_robot(**sizes).inverse.circles(sizes["h1"] - numbers["drop"]))
+    return radii[::-1] if reverse else radii
 
 
 @lru_cache(maxsize=256)
@@ -318,7 +312,7 @@ QUESTIONS = (
     ),
     Question(
         "pen_robot.circles",
-        reference=lambda variant: Circles(variant.numbers("pen_robot")),
+        reference=lambda variant: Made(circles, numbers=variant.numbers("pen_robot")),
         mistakes=(
             mistake(
                 "side_forgotten",
@@ -330,7 +324,7 @@ QUESTIONS = (
                 "one_offset_only",
                 0.6,
                 "**Only h2 = {h2} m of the lengths along axis 2 is taken.** L2 lies on the same line.",
-                lambda circles: circles.but(side=circles.numbers["h2"]),
+                lambda circles: circles.but(side=circles.of["numbers"]["h2"]),
             ),
             mistake(
                 "circles_exchanged",

@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 import sympy
 
-from autograder.judge import Question, mistake
+from autograder.judge import Made, Question, mistake
 from autograder.judge.axes import transforms
 from autograder.judge.misconceptions import (
     arguments_in_degrees,
@@ -155,38 +155,36 @@ def kind_of_table(rows) -> str:
 KR210 = rows_of(robots.KR210.table)
 
 
-class Arm(list):
-    """The rows of an arm like the KR210. A wrong step needs to know the list of origins they were made of."""
-
-    def __init__(self, numbers, **lengths):
-        n = self.numbers = numbers
-        self.lengths = {"d1": n["z1"] + n["z2"], "a1": n["x2"], "a2": n["z3"], "a3": n["z4"], "d4": n["x4"] + n["x5"]} | lengths
-        super().__init__([[self.lengths.get(str(cell), cell) for cell in row] for row in KR210])
-        self[5][3] = self.lengths.get("d6", 0)
-
-    def but(self, **lengths):
-        return Arm(self.numbers, **self.lengths | lengths)
+def lengths_of(numbers) -> dict[str, float]:
+    """The lengths of the KR210's table that follow from a list of joint origins."""
+    n = numbers
+    return {"d1": n["z1"] + n["z2"], "a1": n["x2"], "a2": n["z3"], "a3": n["z4"], "d4": n["x4"] + n["x5"]}
 
 
-def one_row_of_the_list(arm, d1=None, d4=None):
+def arm(numbers, d6=0, **lengths) -> list[list]:
+    """The rows of an arm like the KR210; `lengths` and `d6` put in what does not belong there."""
+    known = lengths_of(numbers) | lengths
+    rows = [[known.get(str(cell), cell) for cell in row] for row in KR210]
+    rows[5][3] = d6
+    return rows
+
+
+def one_row_of_the_list(found, d1=None, d4=None):
     changed = {"d1": d1, "d4": d4}
-    return arm.but(**{name: arm.numbers[row] for name, row in changed.items() if row})
+    return found.but(**{name: found.of["numbers"][row] for name, row in changed.items() if row})
 
 
-class Gripper(list):
-    """Transform from frame 6 to the gripper as nested lists, and the list of origins it was made of."""
+def with_long_side(found, length, distance):
+    """A length of the table replaced by a distance between two origins of the list."""
+    return found.but(**{length: float(distance(found.of["numbers"]))})
 
-    TURN = np.array([[0.0, 0, 1], [0, -1, 0], [1, 0, 0]])
 
-    def __init__(self, numbers, turn=TURN, ahead=(0, 0, 1), rows=("x6", "xg")):
-        self.made_of = {"numbers": numbers, "turn": turn, "ahead": ahead, "rows": rows}
-        matrix = np.eye(4)
-        matrix[:3, :3] = turn
-        matrix[:3, 3] = np.array(ahead) * sum(numbers[row] for row in rows)
-        super().__init__([[int(cell) if cell == int(cell) else float(cell) for cell in row] for row in matrix])
-
-    def but(self, **change):
-        return Gripper(**self.made_of | change)
+def gripper(numbers, turn=((0.0, 0, 1), (0, -1, 0), (1, 0, 0)), ahead=(0, 0, 1), rows=("x6", "xg")) -> list[list]:
+    """Transform from frame 6 to the gripper as nested lists; with the defaults right."""
+    matrix = np.eye(4)
+    matrix[:3, :3] = turn
+    matrix[:3, 3] = np.array(ahead) * sum(numbers[row] for row in rows)
+    return [[int(cell) if cell == int(cell) else float(cell) for cell in row] for row in matrix]
 
 
 QUESTIONS = (
@@ -394,7 +392,7 @@ QUESTIONS = (
     ),
     Question(
         "tables.arm",
-        reference=lambda variant: Arm(variant.numbers("tables")),
+        reference=lambda variant: Made(arm, numbers=variant.numbers("tables")),
         mistakes=(
             mistake(
                 "rows_of_the_list_not_added",
@@ -411,9 +409,9 @@ QUESTIONS = (
                 0.5,
                 "**The straight distance between two origins stands where one of its components belongs.** a runs along X, d along Z: two "
                 "legs of a triangle, not its long side.",
-                lambda arm: arm.but(a1=float(np.hypot(arm.numbers["x2"], arm.numbers["z2"]))),
-                lambda arm: arm.but(d4=float(np.hypot(arm.lengths["d4"], arm.numbers["z4"]))),
-                lambda arm: arm.but(d4=float(np.hypot(arm.numbers["x4"], arm.numbers["z4"])) + arm.numbers["x5"]),
+                lambda arm: with_long_side(arm, "a1", lambda n: np.hypot(n["x2"], n["z2"])),
+                lambda arm: with_long_side(arm, "d4", lambda n: np.hypot(n["x4"] + n["x5"], n["z4"])),
+                lambda arm: with_long_side(arm, "d4", lambda n: np.hypot(n["x4"], n["z4"]) + n["x5"]),
             ),
             offset_missing(2),
             mistake(
@@ -421,8 +419,8 @@ QUESTIONS = (
                 0.7,
                 "**O6 was put where the list has joint 6.** Axes 4, 5 and 6 meet in one point, the wrist centre: with all three origins there "
                 "the table is shortest. The way ahead belongs to the gripper.",
-                lambda arm: arm.but(d6=arm.numbers["x6"]),
-                lambda arm: arm.but(d6=arm.numbers["x6"] + arm.numbers["xg"]),
+                lambda arm: arm.but(d6=arm.of["numbers"]["x6"]),
+                lambda arm: arm.but(d6=arm.of["numbers"]["x6"] + arm.of["numbers"]["xg"]),
             ),
             sign_of("a", 4),
             sign_of("alpha", 2, 4, 5, 6),
@@ -431,7 +429,7 @@ QUESTIONS = (
     ),
     Question(
         "tables.gripper",
-        reference=lambda variant: Gripper(variant.numbers("tables")),
+        reference=lambda variant: Made(gripper, numbers=variant.numbers("tables")),
         mistakes=(
             mistake(
                 "not_turned",

@@ -7,7 +7,7 @@ from itertools import combinations
 import numpy as np
 import sympy
 
-from autograder.judge import Question, mistake
+from autograder.judge import Made, Question, mistake
 from autograder.judge.misconceptions import (
     classic_table,
     degrees,
@@ -37,19 +37,13 @@ GENERAL = a, alpha, d, theta = sympy.symbols("a alpha d theta")
 # ---------------------------------------------------------------- a point in two frames
 
 
-class Seen(list):
-    """Coordinates of a point in frame A. A wrong step needs to know what they were made of."""
-
-    def __init__(self, numbers, shift=1.0, turn=1.0, unit=np.pi / 180, shift_turned=False):
-        self.made_of = {"numbers": numbers, "shift": shift, "turn": turn, "unit": unit, "shift_turned": shift_turned}
-        angle = turn * unit * numbers["phi"]
-        rotation = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-        way = shift * np.array([numbers["tx"], numbers["ty"]])
-        point = np.array([numbers["px"], numbers["py"]])
-        super().__init__((rotation @ (point + way) if shift_turned else rotation @ point + way).tolist())
-
-    def but(self, **change):
-        return Seen(**self.made_of | change)
+def seen_from_a(numbers, shift=1.0, turn=1.0, unit=np.pi / 180, shift_turned=False) -> list[float]:
+    """Coordinates in frame A of the point given in frame B; with the defaults right."""
+    angle = turn * unit * numbers["phi"]
+    rotation = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    way = shift * np.array([numbers["tx"], numbers["ty"]])
+    point = np.array([numbers["px"], numbers["py"]])
+    return (rotation @ (point + way) if shift_turned else rotation @ point + way).tolist()
 
 
 # ---------------------------------------------------------------- which moves commute
@@ -157,7 +151,7 @@ def round_twist(T) -> str:
 QUESTIONS = (
     Question(
         "transforms.point",
-        reference=lambda variant: Seen(variant.numbers("transforms")),
+        reference=lambda variant: Made(seen_from_a, numbers=variant.numbers("transforms")),
         mistakes=(
             mistake(
                 "turned_the_other_way",

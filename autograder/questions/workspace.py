@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 import sympy
 
-from autograder.judge import Question, mistake
+from autograder.judge import Made, Question, mistake
 from autograder.judge.misconceptions import (
     angle_not_summed,
     angles_subtracted,
@@ -47,26 +48,18 @@ def own_arm(numbers, *, turn=None, elbow=None) -> RRArm:
     return RRArm(numbers["L1"], numbers["L2"], q1, q2)
 
 
-class Cloud(list):
-    """Points of the workspace as rows. A wrong step needs to know the arm that they were made of."""
-
-    def __init__(self, arm, shape="grid"):
-        self.arm = arm
-        q1, q2 = np.linspace(*arm.q1, 60), np.linspace(*arm.q2, 24)
-        if shape == "diagonal":
-            together = np.stack([np.linspace(*limits, 400) for limits in (arm.q1, arm.q2)], axis=-1)
-            points = planar_points((arm.l1, arm.l2), together)
-        elif shape == "absolute":
-            first, second = np.meshgrid(q1, q2)
-            points = arm.l1 * _direction(first) + arm.l2 * _direction(second)
-        else:
-            points = rr_grid(arm.l1, arm.l2, q1, q2)
-        super().__init__(points.reshape(-1, 2).tolist())
-
-    def but(self, shape="grid", **change):
-        """The cloud of an arm with other lengths or ranges, or one made in another way."""
-        parts = {name: getattr(self.arm, name) for name in ("l1", "l2", "q1", "q2")}
-        return Cloud(RRArm(**parts | change), shape)
+def cloud(arm, shape="grid") -> list[list[float]]:
+    """Points of the workspace as rows; other shapes than the grid are mistaken."""
+    q1, q2 = np.linspace(*arm.q1, 60), np.linspace(*arm.q2, 24)
+    if shape == "diagonal":
+        together = np.stack([np.linspace(*limits, 400) for limits in (arm.q1, arm.q2)], axis=-1)
+        points = planar_points((arm.l1, arm.l2), together)
+    elif shape == "absolute":
+        first, second = np.meshgrid(q1, q2)
+        points = arm.l1 * _direction(first) + arm.l2 * _direction(second)
+    else:
+        points = rr_grid(arm.l1, arm.l2, q1, q2)
+    return points.reshape(-1, 2).tolist()
 
 
 def _direction(angle):
@@ -277,26 +270,26 @@ QUESTIONS = (
     ),
     Question(
         "workspace.cloud",
-        reference=lambda variant: Cloud(own_arm(variant.numbers("workspace"))),
+        reference=lambda variant: Made(cloud, arm=own_arm(variant.numbers("workspace"))),
         mistakes=(
             mistake(
                 "one_index_for_both_joints",
                 0.3,
                 "**Your points lie on one curve.** Both joints march in step; take every value of joint 2 for every value of "
                 "joint 1.",
-                lambda cloud: cloud.but("diagonal"),
+                lambda cloud: cloud.but(shape="diagonal"),
             ),
             mistake(
                 "ranges_exchanged",
                 0.4,
                 "**Each joint has the other's range.** Joint 1 goes from {t1_min} to {t1_max} degrees.",
-                lambda cloud: cloud.but(q1=cloud.arm.q2, q2=cloud.arm.q1),
+                lambda cloud: cloud.but(arm=replace(cloud.of["arm"], q1=cloud.of["arm"].q2, q2=cloud.of["arm"].q1)),
             ),
             mistake(
                 "angle_not_summed",
                 0.3,
                 "**The forearm is drawn as if theta2 were measured from the x axis.** It goes from the upper arm to the forearm.",
-                lambda cloud: cloud.but("absolute"),
+                lambda cloud: cloud.but(shape="absolute"),
             ),
         ),
         tolerance=0.04,
