@@ -18,7 +18,7 @@ from nbgrader.preprocessors import GetGrades, NbGraderPreprocessor
 from traitlets import Enum, Float, Integer
 
 from autograder import questions
-from autograder.judge import Variant, judge
+from autograder.judge import Variant, is_forgivable, judge
 from autograder.judge.clusters import is_unexplained, keep
 from autograder.sandbox import Limits
 
@@ -82,8 +82,10 @@ class JudgeAnswers(NbGraderPreprocessor):
             return cell, resources
         evidence = resources["autograder"]["evidence"][grade_id(cell)]
         question = questions.find(question_id(grade_id(cell)))
-        notebook = {question_id(check): found for check, found in resources["autograder"]["evidence"].items()}
-        verdict = judge(question, evidence, Variant(resources["nbgrader"]["student"]), notebook)
+        earlier = resources["autograder"].setdefault("forgivable", {})
+        verdict = judge(question, evidence, Variant(resources["nbgrader"]["student"]), earlier)
+        if is_forgivable(verdict):
+            earlier[question.id] = evidence
         earned = points(verdict.share, float(cell.metadata.nbgrader["points"]))
         cell.outputs = [
             new_output("display_data", data={"text/markdown": verdict.feedback, "text/plain": verdict.feedback}),

@@ -8,6 +8,21 @@ from dhkit.wire import MIME
 
 from .decode import Malformed
 from .question import Family, Follow, Made, Mistake, Question, Variant, mistake
-from .verdict import Evidence, Verdict, judge, plain
+from .verdict import Evidence, Verdict, is_forgivable, judge, plain
 
-__all__ = ["MIME", "Evidence", "Family", "Follow", "Made", "Malformed", "Mistake", "Question", "Variant", "Verdict", "judge", "mistake", "plain"]
+__all__ = [
+    "MIME",
+    "Evidence",
+    "Family",
+    "Follow",
+    "Made",
+    "Malformed",
+    "Mistake",
+    "Question",
+    "Variant",
+    "Verdict",
+    "is_forgivable",
+    "judge",
+    "mistake",
+    "plain",
+]

@@ -16,8 +16,8 @@ from dhkit import wire
 from .decode import Blank, Function, Malformed, Number, Value, decode_answer
 from .kinds import KINDS, Entries, Setting
 from .question import Family, Question, Variant
+from .verdict import UNEXPLAINED
 
-UNEXPLAINED = frozenset({"nothing_matched", "partly_right", "one_cell", "malformed"})
 MAX_KEPT = 20_000
 
 # Measured errors, which differ between students who made the same mistake with other numbers.

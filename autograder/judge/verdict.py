@@ -20,6 +20,9 @@ from .question import Family, Mistake, Question, Step, Variant
 Matches = Callable[[tuple[Step, ...], float], bool]
 
 
+UNEXPLAINED = frozenset({"nothing_matched", "partly_right", "one_cell", "malformed"})
+"""Notes of wrong answers in which no misconception was found."""
+
 # What a wrong step may run into: a mistaken function fails where the student's does, some steps exclude each other.
 _IMPOSSIBLE = (ArithmeticError, AttributeError, IndexError, KeyError, TypeError, ValueError)
 
@@ -62,7 +65,8 @@ class Verdict:
 def judge(question: Question, evidence: Evidence, variant: Variant, earlier: Mapping[str, Evidence] | None = None) -> Verdict:
     """The verdict on one question. Never raises on anything a student can send.
 
-    `earlier` holds the evidence of the same notebook's questions by id: an error made there is not counted here again.
+    `earlier` holds the evidence of those earlier questions of the notebook whose errors are forgivable, by id: they are
+    not counted here again.
     """
     if evidence.bundle is None:
         return _nothing_came(evidence)
@@ -92,6 +96,15 @@ def _of_another(question: Question, evidence: Evidence, value: Value, typed: str
     whose = "nobody: no id was typed at the top of the notebook" if typed == NOBODY else f"the id {plain(typed)}"
     feedback = f"**Right, but for the numbers of another student**: for those of {whose}. Type your own id at the top, and answer with your numbers."
     return Verdict(0.0, "numbers_of_another_student", feedback)
+
+
+def is_forgivable(verdict: Verdict) -> bool:
+    """Whether what follows from an answer may earn points although the answer is wrong.
+
+    The mistake has a name, or most of the answer is right: from a guess, or from a table of zeros, everything and
+    nothing follows.
+    """
+    return verdict.share >= 0.5 or (verdict.share > 0 and verdict.note not in UNEXPLAINED)
 
 
 def plain(text: str) -> str:

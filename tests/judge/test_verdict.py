@@ -7,7 +7,7 @@ from answers import verdict
 from dhkit import public, variants, wire
 from dhkit.public import PublicQuestion
 
-from autograder.judge import Evidence, Family, Question, Variant, following, judge, mistake
+from autograder.judge import Evidence, Family, Question, Variant, following, is_forgivable, judge, mistake
 from autograder.judge.decode import decode_answer
 from autograder.judge.kinds import KINDS, Setting
 from autograder.questions import find
@@ -127,6 +127,17 @@ def test_the_product_of_a_table_follows_from_its_values():
     rows = np.random.default_rng(4).uniform(-1, 1, (3, 4, 5))
     for found, row in zip(following.product_of_table(rows), rows, strict=True):
         assert np.allclose(found, np.array(hand(row.tolist()), dtype=float))
+
+
+def test_only_a_named_or_mostly_right_answer_is_forgiven_later():
+    """From a table of zeros follows the identity: a guess must not earn the points of the product."""
+    table = find("scara.table")
+    named = next(node for node in table.mistakes if node.note == "classic_table")
+    assert is_forgivable(judged(table, ROWS))
+    assert is_forgivable(judged(table, named.steps[0](ROWS)))
+    assert is_forgivable(judged(table, [[0, 0, 0, 0, t1], [0, 3 * a2, 0, 0, t2], *ROWS[2:]]))
+    for guess in ([[0] * 5] * 4, [ROWS[0], *[[0] * 5] * 3], ..., "text"):
+        assert not is_forgivable(judged(table, guess))
 
 
 # ---------------------------------------------------------------- sets of solutions

@@ -182,7 +182,7 @@ def stock(graded, ungraded):
     """The chosen part of the class, graded by ``nbgrader autograde``."""
     mode = "bwrap" if SANDBOX else "none"
     options = [f"--SandboxExecute.{name}={value}" for name, value in {**LIMITS, "mode": mode}.items()]
-    for exercise in exercises():
+    for exercise in sorted({one.exercise for one in CLASS if one.stock}):
         run(ungraded, "-m", "nbgrader", "autograde", exercise, "--log-level=ERROR", *options)
     return ungraded
 
@@ -190,7 +190,7 @@ def stock(graded, ungraded):
 def test_the_part_for_stock_nbgrader_has_every_outcome():
     notes = {note for one in submissions() if one.stock for note in ("right", *one.notes.values())}
     assert notes >= FRAME_NOTES | {"sign_of_d2"}
-    assert {one.exercise for one in submissions() if one.stock} == set(exercises())
+    assert any(one.exercise not in ("scara", "planar_2r") for one in submissions() if one.stock), "one with numbers of one's own"
 
 
 @pytest.mark.parametrize("query", [GRADES, COMMENTS], ids=["grades", "comments"])
