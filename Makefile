@@ -16,10 +16,10 @@ grade: setup
 	$(BIN)/autograder release --course $(CLASS) && \
 	$(BIN)/autograder grade --course $(CLASS) --sandbox $$sandbox
 
-# All tests, and every notebook executed.
+# All tests, and every notebook executed; a warning in a notebook is an error.
 test: setup
 	$(BIN)/pytest -n auto --dist loadfile
-	$(BIN)/pytest -n auto --nbmake course solutions exercises
+	PYTHONWARNINGS=error::RuntimeWarning,error::UserWarning,error::SyntaxWarning $(BIN)/pytest -n auto --nbmake course solutions exercises
 
 # JupyterLab on the exercises.
 lab: setup
