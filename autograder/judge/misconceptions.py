@@ -71,7 +71,7 @@ def classic_table(last: Sequence = (0, 0), **other) -> Mistake:
 
 
 def rows_shifted(**other) -> Mistake:
-    """Every row stands one place too high or too low."""
+    """Every row stands one place too high or too low; the row that is left over comes at the other end, or an empty one."""
     return _entry(
         "rows_shifted",
         0.3,
@@ -79,6 +79,8 @@ def rows_shifted(**other) -> Mistake:
         "and joint 1?",
         lambda rows: [*rows[1:], rows[0]],
         lambda rows: [rows[-1], *rows[:-1]],
+        lambda rows: [*rows[1:], [0, 0, 0, 0, 0]],
+        lambda rows: [[0, 0, 0, 0, 0], *rows[:-1]],
         **other,
     )
 

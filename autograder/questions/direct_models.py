@@ -14,10 +14,14 @@ from autograder.judge.misconceptions import (
     angles_subtracted,
     arguments_in_degrees,
     classic_table,
+    hypotenuse,
+    offset_misplaced,
     offset_missing,
     one_factor_missing,
+    origins_as_d,
     reversed_product,
     sign_of,
+    summed_in_the_wrong_frame,
     symbol_negated,
     transposed_rotation,
 )
@@ -44,6 +48,12 @@ def planar_tool(*angles) -> list[sympy.Expr]:
 
 
 TOOL_POINT = planar_tool(t1, t1 + t2, t1 + t2 + t4)
+
+
+def with_unturned(*lengths) -> list[sympy.Expr]:
+    """The tool point with these lengths of its step from the wrist added along the axes of the base."""
+    turned = [entry.subs({length: 0 for length in lengths}) for entry in TOOL_POINT]
+    return [entry + (length if length in lengths else 0) for entry, length in zip(turned, (L4, w))]
 
 
 # ---------------------------------------------------------------- six turns in space
@@ -90,6 +100,23 @@ def offset_as_link_length(rows):
     rows = [list(row) for row in rows]
     rows[3][1], rows[2][3] = rows[3][1] + rows[2][3], sympy.S.Zero
     return rows
+
+
+def in_row_3(column, value):
+    """Another length in row 3."""
+
+    def step(rows):
+        rows = [list(row) for row in rows]
+        rows[2][column] = value
+        return rows
+
+    return step
+
+
+def or_with(step, about):
+    """A mistake of one step, alone or with a second step behind it."""
+    (first,) = about.steps
+    return replace(about, steps=(first, lambda rows: step(first(rows))))
 
 
 # ---------------------------------------------------------------- the RX-90
@@ -233,6 +260,12 @@ QUESTIONS = (
                 "where they were in the reference position. Which turn leaves all the other centres alone?",
                 lambda _: list((SCARA_K[2] * SCARA_K[1] * SCARA_K[0] * TOOL_0)[:2, 0]),
             ),
+            summed_in_the_wrong_frame(
+                with_unturned(L4, w),
+                with_unturned(w),
+                feedback="**A length of the tool is added as it stands.** Ahead and left are told as the hand sees them, and the hand has "
+                "turned: what is ahead of it is not ahead of the base.",
+            ),
             symbol_negated(
                 w,
                 "tool_on_the_other_side",
@@ -323,6 +356,26 @@ QUESTIONS = (
                 offset_as_link_length,
             ),
             sign_of("alpha", 2, 4, 5, 6),
+            offset_misplaced(3, 2),
+            or_with(
+                in_row_3(3, 0),
+                hypotenuse(
+                    4,
+                    "d",
+                    D3,
+                    D4,
+                    feedback="**In column d stands the straight distance from elbow to wrist.** d runs along one Z axis: which two axes "
+                    "do its two components follow?",
+                ),
+            ),
+            or_with(
+                in_row_3(1, D3),
+                origins_as_d(
+                    (0, 0, L2, D4, 0, 0),
+                    feedback="**Heights of the figure were copied into column d.** d is measured along Z_i, from X_(i-1) to X_i: is "
+                    "every Z of this arm upright?",
+                ),
+            ),
         ),
         partial=0.4,
     ),

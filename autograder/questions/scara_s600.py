@@ -16,6 +16,7 @@ from autograder.judge.misconceptions import (
     posture_missing,
     product,
     reversed_product,
+    rows_shifted,
     symbol_negated,
 )
 from autograder.reference import robots
@@ -266,6 +267,10 @@ QUESTIONS = (
                 note="d_and_r_exchanged",
                 feedback="**The columns d and r are exchanged.** In the letters of Khalil and Kleinfinger d is counted along x, from one "
                 "joint axis to the next; r along z.",
+            ),
+            rows_shifted(
+                feedback="**The rows are shifted by one.** Row i leads from frame i-1 to frame i. Frames 0 and 1 share their origin and "
+                "their z: what does row 1 hold then, and which joint?"
             ),
         ),
         partial=0.6,

@@ -16,6 +16,7 @@ from autograder.judge.misconceptions import (
     misprint,
     of_function,
     option,
+    summed_in_the_wrong_frame,
     symbol_negated,
     tool_left_out,
     transposed_rotation,
@@ -177,6 +178,11 @@ QUESTIONS = (
                 0.6,
                 "**The angle {phi} is taken in radians.** It is given in degrees: numpy's cos and sin want `np.radians` of it.",
                 lambda seen: seen.but(unit=1.0),
+            ),
+            summed_in_the_wrong_frame(
+                steps=(lambda seen: seen.but(turn=0.0),),
+                feedback="**Coordinates of two frames are added as they stand.** {px} m along x_B is not {px} m along x_A: frame B is "
+                "turned by {phi} degrees.",
             ),
         ),
         tolerance=1e-3,
