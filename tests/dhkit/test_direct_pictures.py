@@ -4,7 +4,6 @@ import matplotlib
 
 matplotlib.use("Agg")
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from dhkit.drawing.chains import chain_frames
@@ -29,12 +28,6 @@ SHOWS = {
     "on_rx90": lambda answer: pictures.show_on_rx90(answer, ROBOT),
     "rx90_forward": lambda answer: pictures.show_rx90_forward(answer, MINE),
 }
-
-
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
 
 
 @pytest.mark.parametrize("name", SHOWS)

@@ -4,7 +4,6 @@ import matplotlib
 
 matplotlib.use("Agg")
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from dhkit.drawing.orientation import turned
@@ -18,12 +17,6 @@ ORDER = ("psi", "theta", "phi")
 ROTATION = turned([0.8, 0.6, 0.4], "zyx")[-1]
 
 pytestmark = pytest.mark.filterwarnings("error")
-
-
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
 
 
 def said(ax) -> str:

@@ -34,12 +34,6 @@ SHOWN = {
 pytestmark = pytest.mark.filterwarnings("error")
 
 
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
-
-
 def told(ax) -> str:
     axes = ax if isinstance(ax, list) else [ax]
     return " ".join(text.get_text() for each in axes for text in each.texts)

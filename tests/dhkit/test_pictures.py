@@ -30,12 +30,6 @@ HAND = Matrix(
 pytestmark = pytest.mark.filterwarnings("error")
 
 
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
-
-
 def scara_forward(t1, t2, d2, t4, a2, a3):
     values = {"t1": t1, "t2": t2, "t4": t4, "a2": a2, "a3": a3, "d2": d2}
     return np.array(HAND.subs(values), dtype=float)

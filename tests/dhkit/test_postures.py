@@ -16,12 +16,6 @@ ELBOW = [(0.3, 0.2, 1.2), (0.3 + np.pi, np.pi - 0.2, -1.2)]
 pytestmark = pytest.mark.filterwarnings("error")
 
 
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
-
-
 def rx90(t1, t2, t3, t4, t5, t6):
     return [[0, 0, 0, 0, t1], [0, 0, H, 0, t2], [0, 0.45, 0, 0, t3], [0, 0, -H, 0.45, t4], [0, 0, H, 0, t5], [0, 0, -H, 0, t6]]
 

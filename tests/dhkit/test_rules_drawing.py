@@ -28,12 +28,6 @@ SAME = ((0, 0, 0), UP), ((0, 0, 1), UP)
 pytestmark = pytest.mark.filterwarnings("error")
 
 
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
-
-
 def texts(ax):
     return [text.get_text() for text in ax.texts]
 

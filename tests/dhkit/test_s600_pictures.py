@@ -4,7 +4,6 @@ import matplotlib
 
 matplotlib.use("Agg")
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from dhkit.pictures.scara_s600 import show_classic, show_configurations, show_linear, show_mgi, show_on_s600
@@ -18,12 +17,6 @@ HAND = np.array([0.325 * np.cos(-0.4) + 0.275 * np.cos(0.6), 0.325 * np.sin(-0.4
 LENGTHS, TARGET = (0.325, 0.275), (-0.2, 0.4)
 
 pytestmark = pytest.mark.filterwarnings("error")
-
-
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
 
 
 def said(ax) -> str:

@@ -4,7 +4,6 @@ import matplotlib
 
 matplotlib.use("Agg")
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from dhkit.drawing import tables
@@ -12,12 +11,6 @@ from dhkit.drawing import tables
 pytestmark = pytest.mark.filterwarnings("error")
 AXES = ["z", "y", "x", ""]
 ORIGINS = [(0, 0, 0.3), (0.2, 0, 0.8), (1.0, 0, 0.7), (1.2, 0, 0.7)]
-
-
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
 
 
 def place(ax, text) -> np.ndarray:

@@ -4,7 +4,6 @@ import matplotlib
 
 matplotlib.use("Agg")
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from dhkit.pictures import tables as pictures
@@ -22,12 +21,6 @@ CLASSIC = [[*below[1:3], *row[3:]] for row, below in zip(RX90, [*RX90[1:], [0] *
 ORIGINS, AXES = [(0, 0, 0.3), (0.2, 0, 0.8), (1.0, 0, 0.8)], ["z", "y", ""]
 
 pytestmark = pytest.mark.filterwarnings("error")
-
-
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
 
 
 def place(ax, text) -> np.ndarray:

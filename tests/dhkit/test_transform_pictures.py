@@ -4,7 +4,6 @@ import matplotlib
 
 matplotlib.use("Agg")
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import sympy
@@ -19,12 +18,6 @@ MATRIX = walk_frames([("trans_x", 1.0), ("rot_x", 0.7), ("trans_z", 1.1), ("rot_
 CLASSIC = walk_frames([("rot_z", 1.2), ("trans_z", 1.1), ("trans_x", 1.0), ("rot_x", 0.7)])[-1]
 
 pytestmark = pytest.mark.filterwarnings("error")
-
-
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
 
 
 def shadow(ax) -> np.ndarray:

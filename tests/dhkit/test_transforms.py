@@ -16,12 +16,6 @@ WALK = [("trans_x", A), ("rot_x", ALPHA), ("trans_z", D), ("rot_z", THETA)]
 pytestmark = pytest.mark.filterwarnings("error")
 
 
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
-
-
 def texts(ax) -> dict:
     return {text.get_text(): text for text in ax.texts}
 

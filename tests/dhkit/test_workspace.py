@@ -4,7 +4,6 @@ import matplotlib
 
 matplotlib.use("Agg")
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import sympy
@@ -18,12 +17,6 @@ BOTH_WAYS = np.radians([(-60, 120), (-60, 150)])
 SECTION = np.radians([(-20, 100), (-140, -30)])
 
 pytestmark = pytest.mark.filterwarnings("error")
-
-
-@pytest.fixture(autouse=True)
-def closed_figures():
-    yield
-    plt.close("all")
 
 
 DRAWINGS = {
