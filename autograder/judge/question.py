@@ -6,6 +6,7 @@ import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from inspect import signature
 
 import numpy as np
 from dhkit import public, variants
@@ -166,7 +167,7 @@ class Question:
         if self.probe is None:
             return None
         rng = np.random.default_rng([seed, _seed(f"{self.id} {variant.student}")])
-        return self.probe(rng, variant) if self.probe.__code__.co_argcount == 2 else self.probe(rng)
+        return self.probe(rng) if len(signature(self.probe).parameters) == 1 else self.probe(rng, variant)
 
 
 def _independent(name: str, rng: np.random.Generator) -> float:
