@@ -138,5 +138,5 @@ def _summary(check: NotebookNode) -> dict:
         "score": marks["score"],
         "points": marks["points"],
         "note": check.metadata.get("autograder", {}).get("note", ""),
-        "line": feedback.split("\n", 1)[0],
+        "line": " ".join(feedback.split()),
     }
