@@ -29,6 +29,7 @@ _WIDTH = len(DH_COLUMNS)
 # joint entry that is no sum of variables and constants betrays itself.
 _BASE, _CHECKS = 0.37, (-4.19, 9.83)
 _EXACT = 1e-7
+_HUGE = 1e300
 _NEXT, _LAST = [1, 2, 0], [2, 0, 1]
 
 
@@ -154,8 +155,8 @@ class _Values:
     def affine(self, entry: Expression) -> tuple[np.ndarray, np.ndarray] | None:
         """Coefficients (m,) of the joint variables and the constant (K,); None if `entry` is no such sum."""
         nothing = np.zeros(len(self.joints))
-        if isinstance(entry, Number) and isinstance(entry.value, float) and np.isfinite(entry.value):
-            return nothing, np.array([entry.value])
+        if isinstance(entry, Number) and isinstance(entry.value, (int, float)) and abs(entry.value) < _HUGE:
+            return nothing, np.array([float(entry.value)])
         names = symbols(entry)
         if names.isdisjoint(self.joints):
             constant = evaluate(entry, self.points if names else {})

@@ -47,9 +47,10 @@ def _real(x):
 
 def evaluate(expression: Expression, points: Mapping[str, np.ndarray]) -> np.ndarray:
     """Complex values of `expression` at N points given as one (N,) array per symbol; nan or inf where undefined."""
-    size = len(next(iter(points.values()), np.zeros(1)))
+    values = np.empty(len(next(iter(points.values()), (0,))), complex)
     with np.errstate(all="ignore"):
-        return np.broadcast_to(_evaluate(expression, points), (size,)).astype(complex)
+        values[:] = _evaluate(expression, points)
+    return values
 
 
 def _evaluate(expression: Expression, points: Mapping[str, np.ndarray]):
