@@ -305,7 +305,9 @@ QUESTIONS = (
                 0.5,
                 "**The turns go the wrong way round.** Positive is about +x and +z, thumb along the axis, as in the K5 and K6 of "
                 "the slide.",
-                lambda matrices: lists(sympy.Matrix(m).subs({t: -t for t in ANGLES}, simultaneous=True) for m in matrices),
+                lambda matrices: lists(
+                    m.subs({t: -t for t in m.free_symbols.intersection(ANGLES)}) for m in map(sympy.Matrix, matrices)
+                ),
             ),
         ),
         # Most cells are 0 or 1 whatever the centres are: right cells alone say little.
