@@ -208,12 +208,16 @@ def _judge_function(question: Question, evidence: Evidence, value: Value, varian
     for args, student in probes:
         cases.setdefault(question.group(*args), []).append(compare((), 2 * np.pi, args, student))
     wrong = tuple(_wrong_case(case, found) for case, found in cases.items() if not all(one.equal for one in found))
-    return _walk(
+    found = _walk(
         question,
         variant,
         Comparison(not wrong, 1 - len(wrong) / len(cases), wrong),
         lambda steps, turn: all(compare(steps, turn, *probe).equal for probe in probes),
     )
+    # A constant is right now and then: "no solution" wherever there is none. It shows no understanding of any case.
+    if found.share > 0 and wrong and len(set(results)) == 1:
+        return Verdict(0.0, "nothing_matched", "**Not right.** Your function returns the same for all arguments that were tried.")
+    return found
 
 
 def _wrong_case(case: str, found: list[Comparison]) -> str:
