@@ -120,14 +120,16 @@ def test_nothing_outside_the_private_places_can_be_written(sandboxed, tmp_path, 
     assert printed(sandboxed(source), 0) != "written"
     assert not target.exists()
 
-    package = os.path.dirname(os.__file__)
-    places = ["/x", "/dev/x", "/etc/x", "/usr/x", "/usr/lib/x", "/home/x", "/proc/sys/kernel/hostname", "/var/x"]
-    places += [f"{package}/x", f"{sys.prefix}/x", f"{sys.prefix}/bin/x", f"{bubblewrap.package_folder('dhkit')}/x"]
+    name = tmp_path.name + f"-{os.getpid()}"  # nobody else's, wherever the repository and its environment lie
+    package, dhkit = os.path.dirname(os.__file__), bubblewrap.package_folder("dhkit")
+    folders = ["", "/dev", "/etc", "/usr", "/usr/lib", "/home", "/var", package, sys.prefix, f"{sys.prefix}/bin", dhkit]
+    places = ["/proc/sys/kernel/hostname", *(f"{folder}/{name}" for folder in folders)]
     run = sandboxed(WRITE + f"print([path for path in {places!r} if attempt(path) == 'written'])")
     assert printed(run, 0) == "[]"
-    run = sandboxed(WRITE + "print([attempt(path) for path in ('/tmp/x', '/home/student/x', 'x', '/dev/shm/x')])")
+    private = [f"/tmp/{name}", f"/home/student/{name}", name, f"/dev/shm/{name}"]
+    run = sandboxed(WRITE + f"print([attempt(path) for path in {private!r}])")
     assert printed(run, 0) == str(["written"] * 4)
-    assert not os.path.exists("/tmp/x") and not os.path.exists("/home/student")
+    assert not any(map(os.path.exists, private)) and not os.path.exists("/home/student")
 
 
 def test_there_is_no_network(sandboxed, printed):
