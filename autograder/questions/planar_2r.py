@@ -46,9 +46,6 @@ REACH = [sympy.sqrt(sympy.factor(DISTANCE_SQUARED.subs(sympy.cos(t2), cosine))) 
 DIRECTION = sympy.atan2(y, x)
 FOREARM = tuple(TABLE.recursion()[1][1::-1, 3])  # the hand seen from link 1: to the left, ahead
 
-LENGTHS = (0.5, 0.4)
-TARGET = (0.3, 0.6)
-
 
 def plane(angle, length):
     return [length * sympy.cos(angle), length * sympy.sin(angle)]
@@ -76,8 +73,10 @@ def solutions(px, py, l1, l2):
     return robots.planar_2r(l1, l2).solve((px, py)).q.tolist()
 
 
-def postures():
-    return solutions(*TARGET, *LENGTHS)
+def own_target(variant):
+    """The student's (x, y, L1, L2)."""
+    mine = variant.numbers("planar_2r")
+    return [mine[name] for name in ("x", "y", "L1", "L2")]
 
 
 def with_opposite_elbows(found):
@@ -157,7 +156,7 @@ def lengths_exchanged(feedback):
 
 def misses(q, variant, *target):
     """How far the hand is from the target, (k,), for joint values (k, 2)."""
-    px, py, l1, l2 = target or (*TARGET, *LENGTHS)
+    px, py, l1, l2 = target or own_target(variant)
     t1, t12 = q[:, 0], q.sum(axis=1)
     return np.hypot(l1 * np.cos(t1) + l2 * np.cos(t12) - px, l1 * np.sin(t1) + l2 * np.sin(t12) - py)
 
@@ -292,7 +291,7 @@ QUESTIONS = (
     ),
     Question(
         "planar_2r.postures",
-        reference=lambda variant: postures(),
+        reference=lambda variant: solutions(*own_target(variant)),
         mistakes=(
             posture_missing(),
             with_first_theta1(),

@@ -39,9 +39,6 @@ TRANSFORMS = TABLE.transforms()
 U0, U1, *_ = TABLE.recursion()
 MODEL = [*U0[:3, 3], t1 + t2 + t4]
 
-LENGTHS = {"a2": 0.4, "a3": 0.3}
-POSE = (0.35, 0.45, -0.12, np.pi / 3)  # x, y, z, theta of the last question
-
 D2_IS_A_DEPTH = (
     "**The sign of d2 is turned.** d2 counts downwards, like the depth of the quill, while Z3 points upwards. The "
     "slides print the table twice, once with each sign: only one of them goes with their matrices."
@@ -65,10 +62,16 @@ def probes(rng: np.random.Generator) -> list[list[float]]:
     return [[float(value) for value in args] for args in draws + round_angles]
 
 
-@lru_cache
-def postures():
-    """All (t1, t2, d2, t4) that reach `POSE`."""
-    return robots.scara(**LENGTHS).solve(POSE).q
+def own_pose(variant):
+    """The student's (a2, a3) and the pose (x, y, z, theta) to reach, metres and radians."""
+    mine = variant.numbers("scara")
+    return [mine["a2"], mine["a3"]], [mine["x"], mine["y"], mine["z"], np.radians(mine["heading"])]
+
+
+def postures(variant):
+    """All (t1, t2, d2, t4) that reach the student's pose."""
+    lengths, pose = own_pose(variant)
+    return robots.scara(*lengths).solve(pose).q.tolist()
 
 
 def with_first_t1_and_heading(solutions):
@@ -78,10 +81,11 @@ def with_first_t1_and_heading(solutions):
 
 
 def misses(q, variant):
-    """How far the hand is from `POSE`, (k,), for joint values (k, 4)."""
-    hands = np.array([forward()(q1, q2, depth, q4, *LENGTHS.values()) for q1, q2, depth, q4 in q])
-    heading = np.arctan2(hands[:, 1, 0], hands[:, 0, 0]) - POSE[3]
-    return np.linalg.norm(hands[:, :3, 3] - POSE[:3], axis=1) + np.abs((heading + np.pi) % (2 * np.pi) - np.pi)
+    """How far the hand is from the student's pose, (k,), for joint values (k, 4)."""
+    lengths, pose = own_pose(variant)
+    hands = np.array([forward()(q1, q2, depth, q4, *lengths) for q1, q2, depth, q4 in q])
+    heading = np.arctan2(hands[:, 1, 0], hands[:, 0, 0]) - pose[3]
+    return np.linalg.norm(hands[:, :3, 3] - pose[:3], axis=1) + np.abs((heading + np.pi) % (2 * np.pi) - np.pi)
 
 
 def with_turned_d2(solutions):
@@ -208,7 +212,7 @@ QUESTIONS = (
     ),
     Question(
         "scara.postures",
-        reference=lambda variant: postures().tolist(),
+        reference=postures,
         mistakes=(
             posture_missing(),
             mistake(
