@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -305,12 +306,24 @@ def _setting(question: Question, variant: Variant, args: list | tuple | None = (
     return Setting(question.points, question.angles, question.tolerance, question.pinned, misses=misses)
 
 
+@lru_cache(maxsize=4096)
+def _reference(question: Question, variant: Variant) -> object:
+    """The right answer; steps make new ones of it and leave it as it is."""
+    return question.reference(variant)
+
+
 @lru_cache(maxsize=16384)
 def _own(question: Question, steps: tuple[Step, ...], variant: Variant) -> tuple[object, bool]:
     """The reference after wrong steps, taken through the same wire and reader as a student's answer; whether it is a family."""
-    answer, family = _unwrapped(question.reference(variant))
-    answer = _taken(steps, answer)
-    return KINDS[question.public.kind].read(question.public, _decoded(question.public, answer)), family
+    answer, family = _unwrapped(_reference(question, variant))
+    return _read(question, json.dumps(wire.encode(_taken(steps, answer)))), family
+
+
+@lru_cache(maxsize=16384)
+def _read(question: Question, sent: str) -> object:
+    """An answer as the wire carries it, read: two wrong steps mostly come to the same whichever is taken first."""
+    form = question.public
+    return KINDS[form.kind].read(form, decode_answer(wire.bundle(form.id, answer=json.loads(sent)), form.id))
 
 
 def _unwrapped(answer: object) -> tuple[object, bool]:

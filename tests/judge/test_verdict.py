@@ -75,6 +75,22 @@ def test_a_forged_id_is_malformed(typed):
     assert judged(REACH, 1.0, student=typed).note == "malformed"
 
 
+def test_the_reference_is_made_once_for_each_student():
+    asked = []
+
+    def reference(variant):
+        asked.append(variant.student)
+        return 2 * variant.numbers("arm")["L1"]
+
+    factors = (mistake(f"times_{k}", 0.5, "**A factor too much.**", lambda reach, k=k: k * reach) for k in (3, 5, 7))
+    question = Question("arm.reach", reference=reference, mistakes=tuple(factors))
+    for variant in (ADA, BOB, ADA):
+        right = 2 * variant.numbers("arm")["L1"]
+        notes = [judged(question, factor * right, variant).note for factor in (1.5, 1, 15, 1.5)]
+        assert notes == ["nothing_matched", "right", "times_3+times_5", "nothing_matched"]
+    assert asked == ["ada", "bob"]
+
+
 def test_feedback_uses_the_students_own_numbers():
     for variant in (ADA, BOB):
         length = variant.numbers("arm")["L1"]

@@ -62,6 +62,15 @@ def test_every_mistake_is_named(question, node, step):
     assert found.feedback.startswith(node.feedback.partition("{")[0])
 
 
+@pytest.mark.parametrize("question", DATA, ids=ids(DATA))
+def test_steps_leave_the_reference_as_it_is(question):
+    reference = right(question)
+    before = wire.encode(reference)
+    for step in (step for node in question.mistakes for step in node.steps):
+        step(reference)
+        assert wire.encode(reference) == before, step
+
+
 TURNED_X2 = [[0, 0, 0, 0, "t1"], [0, "a2", 0, 0, "t2 + pi"], [1, "-a3", 0, "-d2", "pi"], [0, 0, 0, 0, "t4"]]
 SHIFTED_O3 = [[0, 0, 0, 0, "t1"], [0, "a2", 0, 0, "t2"], [1, "a3", 0, "-d2 - a2", 0], [0, 0, 0, "a2", "t4"]]
 DOWNWARDS = [[0, 0, 0, 0, "t1"], [0, "a2", 0, 0, "t2"], [1, "a3", "pi", "d2", 0], [0, 0, 0, 0, "-t4"]]
