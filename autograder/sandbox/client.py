@@ -24,6 +24,7 @@ START_SECONDS = 60.0
 INTERRUPT_SECONDS = 3.0  # what a cell gets to end after an interrupt before its kernel is killed
 SETTLE_SECONDS = 5.0  # what the other half of a cell's end may lag behind
 POLL_SECONDS = 0.2
+PROBE_SECONDS = 0.5  # until a kernel that was interrupted is asked once more whether it is ready
 MESSAGE_OVERHEAD = 200  # bytes: an output costs memory beyond its text
 SHARE = 8  # a cell may always use this part of the notebook's quota,
 SHARES_END = 4  # until the notebook has used its quota this many times
@@ -58,7 +59,8 @@ class Progress:
 
     ``allowed`` is what its outputs may add up to, in bytes, and ``flood`` where
     it is stopped; ``refused`` whether a message was left out on the way;
-    ``stopped`` is (status, message) once it was interrupted.
+    ``stopped`` is (status, message) once it was interrupted, ``interrupt`` the id
+    of that request and ``interrupted`` whether it was answered.
     """
 
     allowed: int
@@ -70,6 +72,8 @@ class Progress:
     streamed: int = 0
     stopped: tuple[str, str] | None = None
     kill_at: float = float("inf")
+    interrupt: str | None = None
+    interrupted: bool = False
 
     @property
     def over(self) -> bool:
@@ -106,7 +110,7 @@ class SandboxClient(NotebookClient):
         self.kc = self.km.client()
         self.kc.context.setsockopt(zmq.MAXMSGSIZE, self.limits.message_bytes)
         self.kc.context.setsockopt(zmq.RCVHWM, QUEUED_MESSAGES)
-        self.kc.start_channels(stdin=False, hb=False, control=False)
+        self.kc.start_channels(stdin=False, hb=False)
         give_up = time.monotonic() + START_SECONDS
         answered = heard = False
         while not (answered and heard):
@@ -135,8 +139,8 @@ class SandboxClient(NotebookClient):
         self.km.context.destroy(linger=0)
 
     async def _receive(self, seconds: float) -> list[tuple[str, Message | None]]:
-        """Messages waiting on shell and iopub, as (channel, message); None stands for a malformed one."""
-        sockets = {self.kc.shell_channel.socket: "shell", self.kc.iopub_channel.socket: "iopub"}
+        """Messages waiting on shell, iopub and control, as (channel, message); None stands for a malformed one."""
+        sockets = {getattr(self.kc, f"{name}_channel").socket: name for name in ("shell", "iopub", "control")}
         poller = zmq.asyncio.Poller()
         for socket in sockets:
             poller.register(socket, zmq.POLLIN)
@@ -168,7 +172,7 @@ class SandboxClient(NotebookClient):
                 progress.stopped = ("output_limit", self._too_much_output())
             if progress.stopped is not None and progress.kill_at == float("inf"):
                 progress.kill_at = now + INTERRUPT_SECONDS
-                await self.km.interrupt_kernel()
+                progress.interrupt = self._interrupt()
             if now >= progress.kill_at:
                 self.lost = True
                 break
@@ -177,10 +181,42 @@ class SandboxClient(NotebookClient):
                 progress.stopped = progress.stopped or self.provisioner.cause_of_death()
                 break
             for channel, message in await self._receive(min(POLL_SECONDS, max(0.0, deadline - now) or POLL_SECONDS)):
-                if message is not None and message.parent == request:
+                if message is None:
+                    continue
+                if channel == "control":
+                    progress.interrupted |= message.parent == progress.interrupt
+                elif message.parent == request:
                     self._take(channel, message, progress, cell, index)
             progress.refused = self.provisioner.relay.refused > refused_before
+        if progress.interrupt is not None and not self.lost:
+            self.lost = not await self._outlives_interrupt(progress)
         return self._result(progress, cell)
+
+    def _interrupt(self) -> str:
+        """Ask the kernel to interrupt what it runs; the id of the request."""
+        message = self.kc.session.msg("interrupt_request", {})
+        self.kc.control_channel.send(message)
+        return message["header"]["msg_id"]
+
+    async def _outlives_interrupt(self, progress: Progress) -> bool:
+        """Whether the kernel is ready for the next cell, now that the interrupted one has ended.
+
+        A cell may end before its interrupt comes, which would then hit the next
+        one, or the kernel itself in taking that one in, and it would never be answered.
+        """
+        give_up = time.monotonic() + INTERRUPT_SECONDS
+        probes: set[str] = set()
+        ask_again = 0.0
+        while (now := time.monotonic()) < give_up and await self.provisioner.poll() is None:
+            if progress.interrupted and now >= ask_again:
+                probes.add(self.kc.kernel_info())
+                ask_again = now + PROBE_SECONDS
+            for channel, message in await self._receive(POLL_SECONDS):
+                if message is not None and channel == "control":
+                    progress.interrupted |= message.parent == progress.interrupt
+                if message is not None and channel == "shell" and message.parent in probes:
+                    return True
+        return False
 
     def _allowance(self) -> int:
         """What the next cell's outputs may add up to.

@@ -67,6 +67,19 @@ while True:
     assert printed(run, 2) == "5"
 
 
+def test_an_interrupt_that_comes_late_does_not_hit_the_next_cell(sandboxed, statuses, printed):
+    late = """
+import time
+kernel = get_ipython().kernel
+send = kernel._send_interrupt_children
+kernel._send_interrupt_children = lambda: (time.sleep(1), send())
+time.sleep(2.5)
+"""
+    run = sandboxed("x = 3", late, "time.sleep(1); print(x)", limits=sandbox.Limits(cell_seconds=2))
+    assert statuses(run) == ["ok", "timeout", "ok"]
+    assert printed(run, 2) == "3"
+
+
 @pytest.mark.parametrize(
     "end", ["import os; os._exit(1)", "exit()", "import os, signal; os.kill(os.getpid(), signal.SIGKILL)"]
 )
