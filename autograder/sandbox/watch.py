@@ -78,7 +78,7 @@ def memory_in_use(pid: int, places: Iterable[str] = (), above: int = 0) -> int:
 
 
 class MemoryWatch(threading.Thread):
-    """Calls ``exceeded`` once when a process family holds more than ``limit`` bytes."""
+    """Calls ``exceeded`` once when a process family holds more than ``limit`` bytes; ``held`` is what it held last."""
 
     def __init__(
         self, pid: int, places: Iterable[str], limit: int, exceeded: Callable[[], None], period: float = 0.2
@@ -90,10 +90,13 @@ class MemoryWatch(threading.Thread):
         self._exceeded = exceeded
         self._period = period
         self._done = threading.Event()
+        self.held = 0
 
     def run(self) -> None:
         while not self._done.wait(self._period):
-            if memory_in_use(self._pid, self._places, above=self._limit) > self._limit:
+            # Nothing is left of a family that is gone: what it held before tells why.
+            self.held = memory_in_use(self._pid, self._places, above=self._limit) or self.held
+            if self.held > self._limit:
                 self._exceeded()
                 return
 

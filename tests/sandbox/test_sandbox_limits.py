@@ -56,6 +56,12 @@ def test_a_cell_that_keeps_all_memory_leaves_some_for_the_others(sandboxed, stat
     assert printed(run, 3) == "3"
 
 
+def test_a_kernel_that_ends_with_its_memory_full_was_ended_by_that(sandboxed, statuses):
+    full = "kept = b'x' * (310 << 20)\nimport os, time; time.sleep(1); os.abort()"
+    run = sandboxed("x = 3", full, "import os; os.abort()", "x", limits=sandbox.Limits(memory=400 * MIB))
+    assert statuses(run) == ["ok", "memory", "died", "ok"]
+
+
 def test_files_in_memory_count(sandboxed, statuses):
     hoard = (
         "for i in range(40):\n    for place in ('/tmp', '/dev/shm'):\n"
