@@ -64,7 +64,9 @@ def _parser() -> argparse.ArgumentParser:
         epilog="example: autograder release && autograder grade scara && autograder report scara",
     )
     common = argparse.ArgumentParser(add_help=False)
-    common.add_argument("--course", metavar="DIR", help="course folder (default: the nearest one with nbgrader_config.py)")
+    common.add_argument(
+        "--course", metavar="DIR", help="course folder (default: the nearest one with nbgrader_config.py)"
+    )
     common.add_argument("--verbose", action="store_true", help="show nbgrader's log")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
 
@@ -76,16 +78,25 @@ def _parser() -> argparse.ArgumentParser:
         added.set_defaults(run=run)
         return added
 
-    release = command("release", _release, "Make the students' notebooks from the solutions.", "autograder release scara")
+    release = command(
+        "release", _release, "Make the students' notebooks from the solutions.", "autograder release scara"
+    )
     release.add_argument("exercise", nargs="*", help="exercises to release (default: all)")
 
     grade = command(
-        "grade", _grade, "Grade the submissions in submitted/*/EXERCISE.", "autograder grade scara --jobs 4 --cell-seconds 60"
+        "grade",
+        _grade,
+        "Grade the submissions in submitted/*/EXERCISE.",
+        "autograder grade scara --jobs 4 --cell-seconds 60",
     )
     grade.add_argument("exercise", nargs="*", help="exercises to grade (default: all that were handed in)")
-    grade.add_argument("--student", action="append", default=[], metavar="ID", help="only this student; may be repeated")
+    grade.add_argument(
+        "--student", action="append", default=[], metavar="ID", help="only this student; may be repeated"
+    )
     grade.add_argument("--force", action="store_true", help="also grade what has not changed since it was graded")
-    grade.add_argument("--jobs", type=_positive, metavar="N", help="notebooks that run at the same time (default: one per core)")
+    grade.add_argument(
+        "--jobs", type=_positive, metavar="N", help="notebooks that run at the same time (default: one per core)"
+    )
     grade.add_argument("--json", action="store_true", help="print one JSON object per submission instead of the table")
     sandbox = grade.add_argument_group("sandbox")
     sandbox.add_argument("--sandbox", choices=("bwrap", "none"), help="'none' runs students' code unprotected, as you")
@@ -93,17 +104,28 @@ def _parser() -> argparse.ArgumentParser:
         metavar = {_bytes: "BYTES", _seconds: "S"}.get(kind, "N")
         sandbox.add_argument(f"--{name}", type=kind, metavar=metavar, help=f"{help} (default {default})")
 
-    feedback = command("feedback", _feedback, "Write the feedback pages of all graded submissions.", "autograder feedback scara")
+    feedback = command(
+        "feedback", _feedback, "Write the feedback pages of all graded submissions.", "autograder feedback scara"
+    )
     feedback.add_argument("exercise")
 
     report = command(
-        "report", _report, "Show how the class did on each question; write a page and tables.", "autograder report scara"
+        "report",
+        _report,
+        "Show how the class did on each question; write a page and tables.",
+        "autograder report scara",
     )
     report.add_argument("exercise")
-    report.add_argument("--to", metavar="FOLDER", help="folder to write to (default: build/reports/EXERCISE in the course)")
+    report.add_argument(
+        "--to", metavar="FOLDER", help="folder to write to (default: build/reports/EXERCISE in the course)"
+    )
 
-    export = command("export", _export, "Write grades and notes as CSV.", "autograder export --exercise scara --to grades.csv")
-    export.add_argument("--exercise", action="append", default=[], metavar="NAME", help="only this exercise; may be repeated")
+    export = command(
+        "export", _export, "Write grades and notes as CSV.", "autograder export --exercise scara --to grades.csv"
+    )
+    export.add_argument(
+        "--exercise", action="append", default=[], metavar="NAME", help="only this exercise; may be repeated"
+    )
     export.add_argument("--to", metavar="FILE", default="grades.csv", help="file to write (default: grades.csv)")
 
     bundle = command("bundle", _bundle, "Write the zip that students get.", "autograder bundle --to build/robots.zip")
@@ -134,8 +156,12 @@ def _grade(options) -> int:
     from autograder.grading.pipeline import grade
     from autograder.grading.table import class_table, progress_bar, summary
 
-    given = {name.replace("-", "_"): getattr(options, name.replace("-", "_")) for name in LIMITS} | {"mode": options.sandbox}
-    course = _course(options, Config(SandboxExecute={name: value for name, value in given.items() if value is not None}))
+    given = {name.replace("-", "_"): getattr(options, name.replace("-", "_")) for name in LIMITS} | {
+        "mode": options.sandbox
+    }
+    course = _course(
+        options, Config(SandboxExecute={name: value for name, value in given.items() if value is not None})
+    )
     submissions = course.submissions(options.exercise, options.student)
     if options.sandbox == "none":
         print("warning: no sandbox; students' code runs with your rights", file=sys.stderr)

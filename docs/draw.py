@@ -8,6 +8,7 @@ matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
+
 from autograder.reference import robots
 from dhkit.drawing.chains import draw_chain
 from dhkit.drawing.postures import draw_posture_gallery

@@ -42,6 +42,15 @@ def test_a_room_imports_only_what_stands_below_it(folder):
 
 
 def test_students_kit_needs_four_libraries():
-    allowed = {"numpy", "sympy", "matplotlib", "mpl_toolkits", "IPython", "ipywidgets", "dhkit", *sys.stdlib_module_names}
+    allowed = {
+        "numpy",
+        "sympy",
+        "matplotlib",
+        "mpl_toolkits",
+        "IPython",
+        "ipywidgets",
+        "dhkit",
+        *sys.stdlib_module_names,
+    }
     for file in sorted((ROOT / "course/dhkit").rglob("*.py")):
         assert {name.split(".")[0] for name in imported(file)} <= allowed, file

@@ -126,9 +126,13 @@ class SubmissionAutograde(Autograde, ChosenStudents, _NothingElse):
     def init_notebooks(self) -> None:
         self.notebooks = []
         names = [name for name in notebook_names(self) if fnmatchcase(name, self.coursedir.notebook_id)]
-        self.assignments = {folder: [os.path.join(folder, f"{name}.ipynb") for name in names] for folder in self._folders()}
+        self.assignments = {
+            folder: [os.path.join(folder, f"{name}.ipynb") for name in names] for folder in self._folders()
+        }
         if not names or not self.assignments:
-            message = f"Nothing to grade in '{self._format_source(self.coursedir.assignment_id, self.coursedir.student_id)}'"
+            message = (
+                f"Nothing to grade in '{self._format_source(self.coursedir.assignment_id, self.coursedir.student_id)}'"
+            )
             self.log.error(message)
             raise NbGraderException(message)
 
@@ -194,7 +198,10 @@ class FeedbackExporter(HTMLExporter):
         own.FeedbackExporter.template_name = "feedback_page"
         nbgrader_templates = own.HTMLExporter.get("extra_template_basedirs", [])
         own.FeedbackExporter.extra_template_basedirs = [TEMPLATES, *nbgrader_templates]
-        own.FeedbackExporter.extra_template_paths = [*own.HTMLExporter.get("extra_template_paths", []), *nbgrader_templates]
+        own.FeedbackExporter.extra_template_paths = [
+            *own.HTMLExporter.get("extra_template_paths", []),
+            *nbgrader_templates,
+        ]
         super().__init__(config=own, **kw)
 
 

@@ -32,7 +32,9 @@ def find_root(given: str | None) -> Path:
     for root in (here, *here.parents):
         if (root / CONFIG).is_file():
             return root
-    raise CourseError(f"neither {here} nor a folder above it has a {CONFIG}; go to the course folder or say --course DIR")
+    raise CourseError(
+        f"neither {here} nor a folder above it has a {CONFIG}; go to the course folder or say --course DIR"
+    )
 
 
 @dataclass(frozen=True)
@@ -76,13 +78,16 @@ class Course:
         handed_in = {exercise: self.students(exercise) for exercise in exercises or self.exercises()}
         everybody = sorted({name for names in handed_in.values() for name in names})
         if not everybody:
-            raise CourseError(f"nobody handed in anything: {self.step('submitted', '*', ' or '.join(handed_in))} is empty")
+            raise CourseError(
+                f"nobody handed in anything: {self.step('submitted', '*', ' or '.join(handed_in))} is empty"
+            )
         for name in students:
             if name not in everybody:
                 which = " or ".join(handed_in)
                 raise CourseError(f"{name!r} handed in nothing for {which}; handed in: {', '.join(everybody)}")
         wanted = {
-            exercise: [name for name in names if not students or name in students] for exercise, names in handed_in.items()
+            exercise: [name for name in names if not students or name in students]
+            for exercise, names in handed_in.items()
         }
         return {exercise: names for exercise, names in wanted.items() if names}
 

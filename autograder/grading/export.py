@@ -35,7 +35,10 @@ class GradesAndNotes(ExportPlugin):
                 for student in sorted(gradebook.students, key=_by_name):
                     if not students or student.id in students:
                         writer.writerow(
-                            {key: spreadsheet_cell(value) for key, value in _row(gradebook, assignment, student).items()}
+                            {
+                                key: spreadsheet_cell(value)
+                                for key, value in _row(gradebook, assignment, student).items()
+                            }
                         )
 
 

@@ -42,7 +42,10 @@ def as_html(report: ClassReport) -> str:
     )  # fmt: skip
     environment.filters |= {"written": written, "students": _students, "percent": lambda share: f"{share:.0%}"}
     # Data URIs of our own plots: base64, which needs no escaping.
-    drawn = {"overview": Markup(plots.overview(report)), "plots": [Markup(plots.question_plot(q)) for q in report.questions]}
+    drawn = {
+        "overview": Markup(plots.overview(report)),
+        "plots": [Markup(plots.question_plot(q)) for q in report.questions],
+    }
     return environment.get_template("report.html.j2").render(report=report, shown=_SHOWN_CLUSTERS, **drawn)
 
 
@@ -59,7 +62,8 @@ def tables(report: ClassReport) -> dict[str, list[Sequence]]:
     answers = [("question", "size", "compared_by", "students", "said", "answer")]
     for question in report.questions:
         numbers = [
-            value if isinstance(value, str) else round(value, 4) for value in (getattr(question, name) for name in about)
+            value if isinstance(value, str) else round(value, 4)
+            for value in (getattr(question, name) for name in about)
         ]
         questions.append((*numbers, "" if question.discrimination is None else round(question.discrimination, 3)))
         notes += [(question.question, note, count) for note, count in question.notes.most_common()]

@@ -35,7 +35,9 @@ from .results import Result, graded_notebooks, read_result
 Progress = Callable[[str], None]
 
 
-def grade(course: Course, exercise: str, students: Sequence[str], jobs: int, force: bool, progress: Progress) -> list[Result]:
+def grade(
+    course: Course, exercise: str, students: Sequence[str], jobs: int, force: bool, progress: Progress
+) -> list[Result]:
     """Grade the submissions of `students` for `exercise` and write their feedback.
 
     Parameters
@@ -88,7 +90,9 @@ def grade(course: Course, exercise: str, students: Sequence[str], jobs: int, for
 
 
 def _unusable(folder: str, exercise: str) -> Result:
-    return Result(terminal_text(folder), exercise, "failed", remarks=("the folder's name holds control characters; rename it",))
+    return Result(
+        terminal_text(folder), exercise, "failed", remarks=("the folder's name holds control characters; rename it",)
+    )
 
 
 def _is_new(course: Course, student: str, exercise: str, names: list[str]) -> bool:

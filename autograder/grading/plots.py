@@ -7,11 +7,11 @@ import io
 from collections.abc import Sequence
 
 import matplotlib
-from dhkit.strokes import AXIS_COLOURS, FAINT, INK, SOFT, STYLE
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from autograder.judge.clusters import is_unexplained
+from dhkit.strokes import AXIS_COLOURS, FAINT, INK, SOFT, STYLE
 
 from .report import NOTHING_CAME, RIGHT, TELLS, TELLS_WELL, ClassReport, QuestionReport
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import nbformat
-from dhkit.public import questions as public_questions
 from nbformat.notebooknode import NotebookNode
 from nbformat.v4 import new_output
 from nbgrader.api import Gradebook
@@ -21,6 +20,7 @@ from autograder import questions
 from autograder.judge import Variant, is_forgivable, judge
 from autograder.judge.clusters import is_unexplained, keep
 from autograder.sandbox import Limits
+from dhkit.public import questions as public_questions
 
 from .execution import Execution, execute
 from .inert import terminal_text
@@ -131,7 +131,9 @@ class Summarize(GetGrades):
 def _summary(check: NotebookNode) -> dict:
     marks = check.metadata.nbgrader
     known = public_questions().get(question_id(marks["grade_id"]))
-    feedback = next((output.data["text/markdown"] for output in check.outputs if output.output_type == "display_data"), "")
+    feedback = next(
+        (output.data["text/markdown"] for output in check.outputs if output.output_type == "display_data"), ""
+    )
     return {
         "grade_id": marks["grade_id"],
         "title": known.title if known else marks["grade_id"],

@@ -121,7 +121,9 @@ def _notebook(content: object) -> NotebookNode:
     if not isinstance(content, dict) or not isinstance(content.get("cells"), list | None) or "nbformat" not in content:
         raise Unreadable("the file is not a Jupyter notebook")
     if content["nbformat"] != 4 or "cells" not in content:
-        raise Unreadable("the notebook has an old or unknown format; open it in JupyterLab, save it and hand it in again")
+        raise Unreadable(
+            "the notebook has an old or unknown format; open it in JupyterLab, save it and hand it in again"
+        )
     if len(content["cells"]) > MAX_CELLS:
         raise Unreadable(f"the notebook has more than {MAX_CELLS} cells")
     cells = [_cell(number, cell) for number, cell in enumerate(content["cells"], 1)]

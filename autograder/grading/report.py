@@ -9,13 +9,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from statistics import StatisticsError, correlation, mean, median
 
-from dhkit.public import questions as public_questions
 from nbgrader.api import Gradebook, MissingEntry
 
 from autograder import questions
 from autograder.judge import Question
 from autograder.judge.clusters import Attempt, Cluster, cluster, is_unexplained, kept, right_answer
 from autograder.judge.decode import Value
+from dhkit.public import questions as public_questions
 
 from .course import Course, CourseError
 from .export import results
@@ -109,7 +109,9 @@ class QuestionReport:
         if self.discrimination is None:
             return "no spread: everybody has the same points, here or in all other questions."
         if self.discrimination < 0:
-            return "turned round: those who did well elsewhere lost points here. Read the question and its answer again."
+            return (
+                "turned round: those who did well elsewhere lost points here. Read the question and its answer again."
+            )
         if self.discrimination < TELLS:
             return "weak: points here have little to do with points elsewhere. Too easy, too hard, or about something else."
         if self.discrimination < TELLS_WELL:
@@ -219,5 +221,7 @@ def _attempts(course: Course, exercise: str, rows: dict[str, dict[str, tuple[flo
 
 def _said(outputs: Iterable[dict]) -> str:
     """What the judge said on a check cell, without Markdown."""
-    feedback = next((output.data.get("text/plain", "") for output in outputs if output.output_type == "display_data"), "")
+    feedback = next(
+        (output.data.get("text/plain", "") for output in outputs if output.output_type == "display_data"), ""
+    )
     return terminal_text(html.unescape(re.sub(r"\\(.)", r"\1", feedback.replace("**", ""))), 400)

@@ -102,9 +102,12 @@ def read_result(course: Course, gradebook: Gradebook, student: str, exercise: st
         return Result(student, exercise, "failed", remarks=("the gradebook does not know this submission",))
     notebooks = graded_notebooks(course, student, exercise)
     order = [grade_id(cell) for nb in notebooks for cell in nb.cells if is_check(cell)]
-    trouble = {grade_id(cell): cell.metadata.get("autograder", {}).get("trouble") for nb in notebooks for cell in nb.cells}
+    trouble = {
+        grade_id(cell): cell.metadata.get("autograder", {}).get("trouble") for nb in notebooks for cell in nb.cells
+    }
     answers = [
-        Answer(question_id(name), score, most, note or "", trouble.get(name)) for name, score, most, note in results(submission)
+        Answer(question_id(name), score, most, note or "", trouble.get(name))
+        for name, score, most, note in results(submission)
     ]
     answers.sort(key=lambda answer: order.index(answer.question.replace(".", "-", 1)) if order else 0)
     feedback = sorted(course.step("feedback", student, exercise).glob("*.html"))

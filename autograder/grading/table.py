@@ -41,7 +41,9 @@ def class_table(results: Sequence[Result]) -> None:
 
 def summary(course: Course, results: Sequence[Result]) -> None:
     """How many were graded, left alone or failed, and where the feedback is."""
-    counts = {status: sum(result.status == status for result in results) for status in ("graded", "unchanged", "failed")}
+    counts = {
+        status: sum(result.status == status for result in results) for status in ("graded", "unchanged", "failed")
+    }
     words = [f"{counts['graded']} graded"]
     if counts["unchanged"]:
         words.append(f"{counts['unchanged']} unchanged since they were graded (--force grades them again)")

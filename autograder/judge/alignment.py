@@ -146,7 +146,9 @@ class _Pair:
     def __init__(self, student: Chain, reference: Chain, senses: np.ndarray, price: Price, tolerance: float) -> None:
         self.student, self.reference, self.prescribed, self.price = student, reference, senses, price
         self.tolerance = tolerance
-        self.length_tolerance = tolerance * max(1.0, np.abs(reference.end[:, :3, 3]).max(), np.abs(reference.origins).max(initial=0))
+        self.length_tolerance = tolerance * max(
+            1.0, np.abs(reference.end[:, :3, 3]).max(), np.abs(reference.origins).max(initial=0)
+        )
         self.motor = np.sign((student.coupling * reference.coupling).sum(axis=1))
         self.end_is_frame = student.ends_with_joint and reference.ends_with_joint
 
@@ -303,7 +305,9 @@ class _Pair:
             rotations[:, start : start + len(segment.sliders) + 1] = node.rotation[:, None]
             node = node.before
         shifts, price = _Slides(self, rotations, base_moves).shifts()
-        return Alignment(rotations, shifts, np.array([senses[joint] for joint in range(count)], dtype=int), cost + price)
+        return Alignment(
+            rotations, shifts, np.array([senses[joint] for joint in range(count)], dtype=int), cost + price
+        )
 
 
 class _Demands:
@@ -321,7 +325,9 @@ class _Demands:
         head = axes[:, segment.entry, :, None] if self.has_entry else np.broadcast_to(np.eye(3), (count, 3, 3))
         self.head = head.shape[2]
         free = [j for j in segment.sliders if np.isfinite(pair.price(Freedom.ZERO, j + 1))]
-        columns = np.concatenate([head, *(-axes[:, j, :, None] for j in free), np.zeros((count, 3, int(self.has_exit)))], axis=2)
+        columns = np.concatenate(
+            [head, *(-axes[:, j, :, None] for j in free), np.zeros((count, 3, int(self.has_exit)))], axis=2
+        )
 
         def until(joint: int) -> np.ndarray:
             """The columns without the strokes of later joints."""
@@ -350,7 +356,9 @@ class _Demands:
         for joint in segment.carried:
             along = axes[:, joint, :, None] * axes[:, joint, None, :]
             gap = missing(origins[:, joint], pair.student.origins[:, joint]) - start
-            if not np.isfinite(pair.price(Freedom.ORIGIN, joint + 1)) and not (pair.end_is_frame and joint == len(origins[0]) - 1):
+            if not np.isfinite(pair.price(Freedom.ORIGIN, joint + 1)) and not (
+                pair.end_is_frame and joint == len(origins[0]) - 1
+            ):
                 demand(until(joint), gap, along)
             if joint in segment.sliders and not np.isfinite(pair.price(Freedom.AXIS, joint + 1)):
                 demand(until(joint), gap, np.eye(3) - along)
@@ -454,7 +462,9 @@ class _Slides:
         """Shifts of the links, (K, n + 1, 3), and the price of the freedoms they use."""
         conditions = list(self._conditions())
         hard = [equation for price, equation in conditions if not np.isfinite(price)]
-        soft = sorted(((price, equation) for price, equation in conditions if np.isfinite(price)), key=lambda item: -item[0])
+        soft = sorted(
+            ((price, equation) for price, equation in conditions if np.isfinite(price)), key=lambda item: -item[0]
+        )
         solution = _Solutions.all(len(self.moves), self.moves.shape[-1])
         if hard:
             rows, wanted = (np.concatenate(parts, axis=1) for parts in zip(*hard, strict=True))

@@ -12,6 +12,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+
 from dhkit import wire
 from dhkit.public import DH_COLUMNS
 
@@ -113,7 +114,9 @@ class Chain:
     def first(self, count: int) -> Chain:
         """The chain up to and including joint number `count`, its frame the end."""
         used = slice(0, count)
-        return Chain(self.variables, self.prismatic[used], self.coupling[used], self.frames[:, used], self.frames[:, count - 1])
+        return Chain(
+            self.variables, self.prismatic[used], self.coupling[used], self.frames[:, used], self.frames[:, count - 1]
+        )
 
     @cached_property
     def axes(self) -> np.ndarray:

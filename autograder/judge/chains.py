@@ -110,7 +110,9 @@ class ChainMatch:
         return tuple(f"the same chain, but with another {used}" for used in self.pinned)
 
 
-def same_chain(student: Chain, reference: Chain, *, pinned: Collection[str] = (), tolerance: float = TOLERANCE) -> ChainMatch:
+def same_chain(
+    student: Chain, reference: Chain, *, pinned: Collection[str] = (), tolerance: float = TOLERANCE
+) -> ChainMatch:
     """Compare two chains given at the same sample points.
 
     pinned: freedoms that a right answer may not use, each for all joints (``"zero of joint"``, ``"sense of Z"``,
@@ -128,7 +130,9 @@ def same_chain(student: Chain, reference: Chain, *, pinned: Collection[str] = ()
                 return ChainMatch(False, parting=mismatch)
             cut = student.first(comparable), reference.first(comparable)
             found = _best(*cut, pins.as_cost, tolerance)
-            return ChainMatch(False, parting=_parting(*cut, found, tolerance) if isinstance(found, Parted) else mismatch)
+            return ChainMatch(
+                False, parting=_parting(*cut, found, tolerance) if isinstance(found, Parted) else mismatch
+            )
         found = _best(student, reference, pins.as_wall, tolerance)
         if isinstance(found, Parted) and pins.given:
             found = _best(student, reference, pins.as_cost, tolerance)
@@ -141,7 +145,9 @@ class _Pins:
     def __init__(self, pinned: Collection[str]) -> None:
         self.given = frozenset(map(str, [pinned] if isinstance(pinned, str) else pinned))
         for name in self.given - _NAMES:
-            raise ValueError(f"no freedom {name!r}: there are {', '.join(Freedom)}, and those of one joint, like {Used(Freedom.Z, 2)}")
+            raise ValueError(
+                f"no freedom {name!r}: there are {', '.join(Freedom)}, and those of one joint, like {Used(Freedom.Z, 2)}"
+            )
 
     def hold(self, freedom: Freedom, joint: int) -> bool:
         return bool(self.given) and not self.given.isdisjoint((str(freedom), str(Used(freedom, joint))))
@@ -153,7 +159,9 @@ class _Pins:
         return _PRICE_OF_PINNED * self.hold(freedom, joint) + _PRICES.get(freedom, 1.0)
 
 
-_NAMES = frozenset(map(str, Freedom)) | {str(Used(freedom, joint)) for freedom in Freedom for joint in range(1, MAX_JOINTS + 1)}
+_NAMES = frozenset(map(str, Freedom)) | {
+    str(Used(freedom, joint)) for freedom in Freedom for joint in range(1, MAX_JOINTS + 1)
+}
 
 
 def _at_same_points(student: Chain, reference: Chain) -> tuple[Chain, Chain]:
@@ -279,7 +287,9 @@ def _rigid(rotation: np.ndarray, shift: np.ndarray) -> np.ndarray:
     return motion
 
 
-def _used(student: Chain, reference: Chain, found: Alignment, signs, offsets, base, tool, tolerance: float) -> Iterator[Used]:
+def _used(
+    student: Chain, reference: Chain, found: Alignment, signs, offsets, base, tool, tolerance: float
+) -> Iterator[Used]:
     """What the tables differ in, measured on the motions found."""
     lengths = tolerance * max(1.0, np.abs(reference.end[:, :3, 3]).max(), np.abs(reference.origins).max(initial=0))
     limits = np.full((4, 4), tolerance)
@@ -332,10 +342,14 @@ def _parting(student: Chain, reference: Chain, parted: Parted | None, tolerance:
     before, joint = segment.entry, segment.exit
     found, expected = (_distance(chain, before, joint) for chain in (student, reference))
     if np.abs(np.abs(found) - np.abs(expected)).max() > tolerance:
-        return Parting(joint + 1, f"distance between axes {before + 1} and {joint + 1}", *_plain(np.abs(found), np.abs(expected)))
+        return Parting(
+            joint + 1, f"distance between axes {before + 1} and {joint + 1}", *_plain(np.abs(found), np.abs(expected))
+        )
     twists = [_twist(chain, before, joint) for chain in (student, reference)]
     if np.abs(found * np.cos(twists[0]) - expected * np.cos(twists[1])).max() > tolerance:
-        signed = (twist * np.where(distance < 0, -1, 1) for twist, distance in zip(twists, (found, expected), strict=True))
+        signed = (
+            twist * np.where(distance < 0, -1, 1) for twist, distance in zip(twists, (found, expected), strict=True)
+        )
         return Parting(joint + 1, f"twist from Z{before + 1}", *_degrees(*signed))
     sense = parted.senses.get(before, 1)
     found, expected = (_offset(chain, segment) for chain in (student, reference))

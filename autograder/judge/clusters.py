@@ -11,6 +11,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+
 from dhkit import wire
 
 from .decode import Blank, Function, Malformed, Number, Value, decode_answer

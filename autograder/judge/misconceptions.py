@@ -18,6 +18,7 @@ from dataclasses import replace
 
 import numpy as np
 import sympy
+
 from dhkit.public import DH_COLUMNS
 
 from .question import Mistake, Step, mistake
@@ -125,7 +126,7 @@ def sign_of(column: str, *rows: int, **other) -> Mistake:
 
 def _constant(cell) -> sympy.Expr:
     cell = sympy.sympify(cell)
-    return cell.subs({symbol: 0 for symbol in cell.free_symbols})
+    return cell.subs(dict.fromkeys(cell.free_symbols, 0))
 
 
 def offset_missing(*rows: int, **other) -> Mistake:
@@ -374,7 +375,9 @@ def symbol_negated(symbol: sympy.Symbol, note: str, feedback: str, share: float 
     return mistake(note, share, feedback, lambda answer: _substituted(answer, {symbol: -symbol}))
 
 
-def symbols_exchanged(first: sympy.Symbol, second: sympy.Symbol, note: str, feedback: str, share: float = 0.5) -> Mistake:
+def symbols_exchanged(
+    first: sympy.Symbol, second: sympy.Symbol, note: str, feedback: str, share: float = 0.5
+) -> Mistake:
     """Two symbols stand in each other's place."""
     return mistake(note, share, feedback, lambda answer: _substituted(answer, {first: second, second: first}))
 

@@ -9,6 +9,7 @@ from functools import cached_property
 from inspect import signature
 
 import numpy as np
+
 from dhkit import public, variants
 
 from .chains import SAME_MODEL

@@ -11,6 +11,7 @@ from itertools import permutations, product
 from types import FunctionType
 
 import numpy as np
+
 from dhkit import public, wire
 from dhkit.variants import NOBODY
 
@@ -27,9 +28,7 @@ UNEXPLAINED = frozenset({"nothing_matched", "partly_right", "one_cell", "malform
 # What a wrong step may run into: a mistaken function fails where the student's does, some steps exclude each other.
 _IMPOSSIBLE = (ArithmeticError, AttributeError, IndexError, KeyError, TypeError, ValueError)
 
-FORGIVEN = (
-    "**Right for your own earlier answer.** What went wrong there has been counted there; from it you went on correctly."
-)
+FORGIVEN = "**Right for your own earlier answer.** What went wrong there has been counted there; from it you went on correctly."
 
 
 @dataclass(frozen=True)
@@ -63,7 +62,9 @@ class Verdict:
     feedback: str
 
 
-def judge(question: Question, evidence: Evidence, variant: Variant, earlier: Mapping[str, Evidence] | None = None) -> Verdict:
+def judge(
+    question: Question, evidence: Evidence, variant: Variant, earlier: Mapping[str, Evidence] | None = None
+) -> Verdict:
     """The verdict on one question. Never raises on anything a student can send.
 
     `earlier` holds the evidence of those earlier questions of the notebook whose errors are forgivable, by id: they are
@@ -84,7 +85,9 @@ def judge(question: Question, evidence: Evidence, variant: Variant, earlier: Map
         return Verdict(0.0, "malformed", f"**Not in the form asked for.** {plain(str(fault))}.")
 
 
-def _judged(question: Question, evidence: Evidence, value: Value, variant: Variant, earlier: Mapping[str, Evidence]) -> Verdict:
+def _judged(
+    question: Question, evidence: Evidence, value: Value, variant: Variant, earlier: Mapping[str, Evidence]
+) -> Verdict:
     if question.public.kind == "function":
         return _judge_function(question, evidence, value, variant)
     return _judge_value(question, value, variant, earlier)
@@ -111,7 +114,12 @@ def is_forgivable(verdict: Verdict) -> bool:
 def plain(text: str) -> str:
     """`text` made harmless for Markdown, HTML and terminals, and short."""
     text = re.sub(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069]+", " ", text)[:300]
-    return re.sub(r"([\\`*_{}\[\]<>()#+!|$~&])", r"\\\1", text).replace("\\<", "&lt;").replace("\\>", "&gt;").replace("\\&", "&amp;")
+    return (
+        re.sub(r"([\\`*_{}\[\]<>()#+!|$~&])", r"\\\1", text)
+        .replace("\\<", "&lt;")
+        .replace("\\>", "&gt;")
+        .replace("\\&", "&amp;")
+    )
 
 
 _TROUBLE = {
@@ -127,7 +135,9 @@ _TROUBLE = {
 
 def _nothing_came(evidence: Evidence) -> Verdict:
     if evidence.status == "ok":
-        return Verdict(0.0, "no_answer", "**No answer was handed in.** The check cell ran, but `check` displayed nothing.")
+        return Verdict(
+            0.0, "no_answer", "**No answer was handed in.** The check cell ran, but `check` displayed nothing."
+        )
     said = f" {plain(evidence.trouble)}" if evidence.trouble else ""
     return Verdict(0.0, evidence.status, _TROUBLE.get(evidence.status, "**No answer was handed in.**") + said)
 
@@ -217,7 +227,9 @@ def _judge_function(question: Question, evidence: Evidence, value: Value, varian
     )
     # A constant is right now and then: "no solution" wherever there is none. It shows no understanding of any case.
     if found.share > 0 and wrong and len(set(results)) == 1:
-        return Verdict(0.0, "nothing_matched", "**Not right.** Your function returns the same for all arguments that were tried.")
+        return Verdict(
+            0.0, "nothing_matched", "**Not right.** Your function returns the same for all arguments that were tried."
+        )
     return found
 
 
@@ -288,7 +300,9 @@ def _walk(question: Question, variant: Variant, against_reference: Comparison, m
 def _feedback(question: Question, variant: Variant, node: Mistake) -> str:
     """The feedback of a mistake with the student's own numbers in it."""
     numbers = variant.numbers(question.exercise)
-    return re.sub(r"\{(\w+)\}", lambda found: f"{numbers[found[1]]}" if found[1] in numbers else found[0], node.feedback)
+    return re.sub(
+        r"\{(\w+)\}", lambda found: f"{numbers[found[1]]}" if found[1] in numbers else found[0], node.feedback
+    )
 
 
 def _possible(matches: Matches, steps: tuple[Step, ...], turn: float) -> bool:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import difflib
 import importlib
 import pkgutil
-from functools import lru_cache
+from functools import cache
 
 from autograder.judge import Question
 
@@ -18,7 +18,7 @@ def names() -> list[str]:
     return sorted(module.name for module in pkgutil.iter_modules(__path__))
 
 
-@lru_cache(maxsize=None)
+@cache
 def of_exercise(name: str) -> tuple[Question, ...]:
     """The questions of one exercise, in the order of its module."""
     return importlib.import_module(f"{__name__}.{name}").QUESTIONS

@@ -52,7 +52,7 @@ TOOL_POINT = planar_tool(t1, t1 + t2, t1 + t2 + t4)
 
 def with_unturned(*lengths) -> list[sympy.Expr]:
     """The tool point with these lengths of its step from the wrist added along the axes of the base."""
-    turned = [entry.subs({length: 0 for length in lengths}) for entry in TOOL_POINT]
+    turned = [entry.subs(dict.fromkeys(lengths, 0)) for entry in TOOL_POINT]
     return [entry + (length if length in lengths else 0) for entry, length in zip(turned, (L4, w))]
 
 

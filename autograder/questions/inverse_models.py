@@ -111,7 +111,8 @@ def with_counts(**changed: object):
     def step(found):
         values = dict(zip("abcdef", found, strict=True))
         return [
-            changed[name](value) if callable(changed.get(name)) else changed.get(name, value) for name, value in values.items()
+            changed[name](value) if callable(changed.get(name)) else changed.get(name, value)
+            for name, value in values.items()
         ]
 
     return step
@@ -169,7 +170,7 @@ def offset_mirrored(found: Rows) -> Rows:
 LENGTHS = ((0.45, 0.45), (0.5, 0.25), (0.375, 0.625))
 ABOUT_X = np.diag([1.0, -1.0, -1.0, 1.0])
 WRIST = product(robots.RX90.table.transforms()[3:])[:3, :3]
-AT_REST = np.array(WRIST.subs({angle: 0 for angle in WRIST.free_symbols}), dtype=float)  # 3R6 with the wrist's angles zero
+AT_REST = np.array(WRIST.subs(dict.fromkeys(WRIST.free_symbols, 0)), dtype=float)  # 3R6 with the wrist's angles zero
 
 
 @lru_cache(maxsize=16)
@@ -512,7 +513,10 @@ QUESTIONS = (
                 0.4,
                 "**This is the determinant of the planar arm.** Joint 1 is missing: how fast does it move the hand, and where does it not "
                 "move it at all?",
-                *(lambda _, sign=sign: sign * sympy.Symbol("L1") * sympy.Symbol("L2") * sympy.sin(t3) for sign in (1, -1)),
+                *(
+                    lambda _, sign=sign: sign * sympy.Symbol("L1") * sympy.Symbol("L2") * sympy.sin(t3)
+                    for sign in (1, -1)
+                ),
             ),
             mistake(
                 "sign_of_the_determinant",

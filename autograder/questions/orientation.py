@@ -19,7 +19,14 @@ from autograder.judge.misconceptions import (
     symbols_exchanged,
     transposed_rotation,
 )
-from autograder.reference.orientation import euler_angles, euler_matrix, rotation, rotation_angle_between, rpy, rpy_matrix
+from autograder.reference.orientation import (
+    euler_angles,
+    euler_matrix,
+    rotation,
+    rotation_angle_between,
+    rpy,
+    rpy_matrix,
+)
 
 phi, theta, psi, e = sympy.symbols("phi theta psi e")
 R = sympy.Matrix(3, 3, lambda i, j: sympy.Symbol(f"r{i + 1}{j + 1}"))
@@ -169,7 +176,9 @@ def misses_zyz(q, variant, rows):
 def probes(rng: np.random.Generator) -> list[list]:
     """Rotations of the wrist: bent both ways, by round angles, stretched and folded back. Zeros are clean zeros."""
     bent = [
-        [*rng.uniform(-3, 3, 1), sign * rng.uniform(0.1, 3.0), *rng.uniform(-3, 3, 1)] for sign in (1, -1) for _ in range(4)
+        [*rng.uniform(-3, 3, 1), sign * rng.uniform(0.1, 3.0), *rng.uniform(-3, 3, 1)]
+        for sign in (1, -1)
+        for _ in range(4)
     ]
     quarter = np.pi / 2
     bent += [[0, quarter, 0], [quarter, quarter, -quarter], [np.pi, quarter, quarter], [0.7, -quarter, 0.0]]
@@ -191,7 +200,10 @@ def unswitched(rows):
     found = []
     for sign in (1, -1):
         root = sign * np.hypot(matrix[0, 2], matrix[1, 2])
-        t4, t6 = np.arctan2(sign * matrix[1, 2], sign * matrix[0, 2]), np.arctan2(sign * matrix[2, 1], -sign * matrix[2, 0])
+        t4, t6 = (
+            np.arctan2(sign * matrix[1, 2], sign * matrix[0, 2]),
+            np.arctan2(sign * matrix[2, 1], -sign * matrix[2, 0]),
+        )
         found.append([t4, np.arctan2(root, matrix[2, 2]), t6])
     return found
 
@@ -457,7 +469,9 @@ QUESTIONS = (
                 "transposed_rotation",
                 0.4,
                 "**Rows and columns are exchanged.** These are the angles of the transposed matrix: r12 stands in row 1, column 2.",
-                in_each(lambda entry: entry.subs({R[i, j]: R[j, i] for i in range(3) for j in range(3)}, simultaneous=True)),
+                in_each(
+                    lambda entry: entry.subs({R[i, j]: R[j, i] for i in range(3) for j in range(3)}, simultaneous=True)
+                ),
             ),
         ),
         partial=0.6,
@@ -469,7 +483,11 @@ QUESTIONS = (
         reference=lambda variant: zyz,
         mistakes=(
             mistake(
-                "one_triple_only", 0.5, one_triple_only().feedback, *with_results(first_of_two), *with_results(second_of_two)
+                "one_triple_only",
+                0.5,
+                one_triple_only().feedback,
+                *with_results(first_of_two),
+                *with_results(second_of_two),
             ),
             lock_not_switched(unswitched),
             mistake(

@@ -94,7 +94,8 @@ def at_joint_1(modes):
     """x, y of B1 in the place of P."""
     bx, by = PLATFORM[0]
     return [
-        [px + bx * np.cos(turn) - by * np.sin(turn), py + bx * np.sin(turn) + by * np.cos(turn), turn] for px, py, turn in modes
+        [px + bx * np.cos(turn) - by * np.sin(turn), py + bx * np.sin(turn) + by * np.cos(turn), turn]
+        for px, py, turn in modes
     ]
 
 
@@ -120,7 +121,10 @@ def without_anchors(x, y, phi):
 
 def leg_vectors(x, y, phi):
     cosine, sine = np.cos(phi), np.sin(phi)
-    return [(x + cosine * bx - sine * by - ax, y + sine * bx + cosine * by - ay) for (bx, by), (ax, ay) in zip(PLATFORM, BASE)]
+    return [
+        (x + cosine * bx - sine * by - ax, y + sine * bx + cosine * by - ay)
+        for (bx, by), (ax, ay) in zip(PLATFORM, BASE)
+    ]
 
 
 def probes(rng: np.random.Generator) -> list[list[float]]:
@@ -134,9 +138,7 @@ BACKWARDS = (
     "**The platform is turned the other way.** Draw it with a small positive phi: on which side of x0 does x_P then lie, "
     "and does the point u = 1, v = 0 move up or down?"
 )
-NOT_TURNED = (
-    "**The platform is not turned.** The points b are given along the axes of the platform: they turn with it when phi changes."
-)
+NOT_TURNED = "**The platform is not turned.** The points b are given along the axes of the platform: they turn with it when phi changes."
 
 QUESTIONS = (
     Question(

@@ -34,9 +34,9 @@ def instead(name):
 
 def tidy(values):
     """Without rounding noise, and with exact zeros and ones."""
-    return np.vectorize(lambda value: round(value) if abs(value - round(value)) < 1e-12 else float(value), otypes=[object])(
-        np.round(np.asarray(values, dtype=float), 14)
-    )
+    return np.vectorize(
+        lambda value: round(value) if abs(value - round(value)) < 1e-12 else float(value), otypes=[object]
+    )(np.round(np.asarray(values, dtype=float), 14))
 
 
 def with_entry(index, change):
@@ -163,7 +163,8 @@ def yaw_in_degrees(matrix):
 PRINTED = [[row.sigma, *row.parameters] for row in robots.RX90.table.rows]
 HALF_TURNS = (0, 0, 1, 1, 1, 1)
 FLIPPED = [
-    [sigma, a, sympy.Abs(alpha), d, theta + half * sympy.pi] for (sigma, a, alpha, d, theta), half in zip(PRINTED, HALF_TURNS)
+    [sigma, a, sympy.Abs(alpha), d, theta + half * sympy.pi]
+    for (sigma, a, alpha, d, theta), half in zip(PRINTED, HALF_TURNS)
 ]
 
 

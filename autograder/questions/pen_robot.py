@@ -6,7 +6,6 @@ from functools import lru_cache
 
 import numpy as np
 import sympy
-from dhkit.curves import pen_path
 
 from autograder.judge import Family, Follow, Made, Question, following, mistake
 from autograder.judge.misconceptions import (
@@ -16,6 +15,7 @@ from autograder.judge.misconceptions import (
     tool_left_out,
 )
 from autograder.reference import DHTable, robots
+from dhkit.curves import pen_path
 
 t1, t2, t3, phi, x, y = sympy.symbols("t1 t2 t3 phi x y")
 h1, L1, h2, L2, p1 = sympy.symbols("h1 L1 h2 L2 p1")
@@ -130,7 +130,11 @@ def places(rng: np.random.Generator) -> list[list[float]]:
 def _point(turn, angle, sizes):
     height, out, side, pen = sizes
     ahead = out + pen * np.sin(angle)
-    return ahead * np.cos(turn) - side * np.sin(turn), ahead * np.sin(turn) + side * np.cos(turn), height + pen * np.cos(angle)
+    return (
+        ahead * np.cos(turn) - side * np.sin(turn),
+        ahead * np.sin(turn) + side * np.cos(turn),
+        height + pen * np.cos(angle),
+    )
 
 
 def kind_of_place(px, py, pz, h1, L1, H, p1) -> str:
@@ -402,7 +406,9 @@ QUESTIONS = (
         angles=(0, 1, 2),
         tolerance=1e-6,
         probe=curve,
-        group=lambda px, py, pz: "the left half of the curve (y > 0)" if py > 0 else "the right half of the curve (y < 0)",
+        group=lambda px, py, pz: (
+            "the left half of the curve (y > 0)" if py > 0 else "the right half of the curve (y < 0)"
+        ),
         misses=misses_of_the_trace,
     ),
     Question(

@@ -53,7 +53,10 @@ def forward():
 
 def probes(rng: np.random.Generator) -> list[list[float]]:
     """Argument lists for forward: random ones, then round angles."""
-    draws = [[*rng.uniform(-3, 3, 2), rng.uniform(0.05, 0.3), rng.uniform(-3, 3), *rng.uniform(0.2, 0.6, 2)] for _ in range(8)]
+    draws = [
+        [*rng.uniform(-3, 3, 2), rng.uniform(0.05, 0.3), rng.uniform(-3, 3), *rng.uniform(0.2, 0.6, 2)]
+        for _ in range(8)
+    ]
     round_angles = [
         [np.pi / 2, 0.0, 0.1, np.pi, 0.4, 0.3],
         [0.0, -np.pi / 2, 0.2, np.pi / 4, 0.25, 0.35],
@@ -151,7 +154,8 @@ QUESTIONS = (
             classic_matrix(*(row[1:] for row in ROWS), note="classic_matrices"),
             transposed_rotation(),
             one_factor_missing(
-                U1, feedback="**The recursion stopped one step too early.** This is U1 = 1T4: the first joint is not in it."
+                U1,
+                feedback="**The recursion stopped one step too early.** This is U1 = 1T4: the first joint is not in it.",
             ),
         ),
         follows=Follow("scara.table", following.product_of_table),
@@ -204,7 +208,9 @@ QUESTIONS = (
         "scara.forward",
         reference=lambda variant: forward(),
         mistakes=(
-            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, lambda model: lambda t1, t2, d2, *rest: model(t1, t2, -d2, *rest)),
+            mistake(
+                "sign_of_d2", 0.7, D2_IS_A_DEPTH, lambda model: lambda t1, t2, d2, *rest: model(t1, t2, -d2, *rest)
+            ),
             arguments_in_degrees(0, 1, 3),
             replace(angles_subtracted(), steps=(lambda model: lambda t1, t2, *rest: model(t1, -t2, *rest),)),
         ),

@@ -93,7 +93,9 @@ PUMA_PRINTED_ROW = rows_of(robots.PUMA_PRINTED.table)[5]
 
 
 def with_cell(rows, row, column, value):
-    return [[value if (i, j) == (row, column) else cell for j, cell in enumerate(cells)] for i, cells in enumerate(rows)]
+    return [
+        [value if (i, j) == (row, column) else cell for j, cell in enumerate(cells)] for i, cells in enumerate(rows)
+    ]
 
 
 # ---------------------------------------------------------------- freedoms of a table of numbers
@@ -134,7 +136,9 @@ def robots_at_random(rng: np.random.Generator) -> list[list]:
     for robot in tables:
         table = robot.table.at(robot.table.values)
         joints = {joint: rng.uniform(0.2, 1.2) for joint in table.joints}
-        found.append([[float(cell) for cell in (row.sigma, *(p.subs(joints) for p in row.parameters))] for row in table.rows])
+        found.append(
+            [[float(cell) for cell in (row.sigma, *(p.subs(joints) for p in row.parameters))] for row in table.rows]
+        )
     a, d, t = rng.uniform(0.2, 0.6, 3)
     half = np.pi / 2
     found.append([[1, 0, 0, d, 0], [1, 0, half, a, half], [1, 0, half, t, 0]])  # a gantry
@@ -146,7 +150,11 @@ def robots_at_random(rng: np.random.Generator) -> list[list]:
 def kind_of_table(rows) -> str:
     if any(row[0] == 1 for row in rows):
         return "tables with a sliding joint"
-    return "sound tables of turning joints" if freedoms(rows) == min(len(rows), 6) else "tables with two joints on one line"
+    return (
+        "sound tables of turning joints"
+        if freedoms(rows) == min(len(rows), 6)
+        else "tables with two joints on one line"
+    )
 
 
 # ---------------------------------------------------------------- a table from a list of joint origins
@@ -262,7 +270,10 @@ QUESTIONS = (
                 arguments_in_degrees().feedback,
                 lambda function: lambda lengths, angles: function(lengths, np.radians(angles).tolist()),
                 lambda function: (
-                    lambda lengths, angles: [*function(lengths, np.radians(angles).tolist())[:2], function(lengths, angles)[2]]
+                    lambda lengths, angles: [
+                        *function(lengths, np.radians(angles).tolist())[:2],
+                        function(lengths, angles)[2],
+                    ]
                 ),
             ),
         ),

@@ -50,7 +50,9 @@ def seen_from_a(numbers, shift=1.0, turn=1.0, unit=np.pi / 180, shift_turned=Fal
 # ---------------------------------------------------------------- which moves commute
 
 MOVES = (trans_x(a), rot_x(alpha), trans_z(d), rot_z(theta))
-COMMUTE = [int(sympy.simplify(first * second) == sympy.simplify(second * first)) for first, second in combinations(MOVES, 2)]
+COMMUTE = [
+    int(sympy.simplify(first * second) == sympy.simplify(second * first)) for first, second in combinations(MOVES, 2)
+]
 
 
 def with_entry(index, value):

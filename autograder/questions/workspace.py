@@ -146,11 +146,15 @@ def ranges(rng: np.random.Generator) -> list[list[float]]:
         (np.pi / 2, np.pi),
         (-np.pi, np.pi),
     ]
-    return [[float(rng.uniform(0.3, 0.7)), float(rng.uniform(0.2, 0.6)), float(low), float(high)] for low, high in found]
+    return [
+        [float(rng.uniform(0.3, 0.7)), float(rng.uniform(0.2, 0.6)), float(low), float(high)] for low, high in found
+    ]
 
 
 def kind_of_range(l1, l2, low, high) -> str:
-    names = [name for angle, name in ((0.0, "the stretched arm"), (np.pi, "the folded arm")) if _holds(angle, low, high)]
+    names = [
+        name for angle, name in ((0.0, "the stretched arm"), (np.pi, "the folded arm")) if _holds(angle, low, high)
+    ]
     return "ranges with " + (" and ".join(names) or "neither the stretched nor the folded arm")
 
 
@@ -188,7 +192,7 @@ def raw_count(x, y, lengths, limits):
 
 def places(rng: np.random.Generator) -> list[list]:
     """Points that two, one or no posture reaches, well away from every edge."""
-    wanted = {name: 5 for name in ("two", "one", "forbidden", "beyond")} | {"turned": 5}
+    wanted = dict.fromkeys(("two", "one", "forbidden", "beyond"), 5) | {"turned": 5}
     found = []
     while any(wanted.values()):
         lengths = [float(rng.uniform(0.4, 0.6)), float(rng.uniform(0.2, 0.38))]
@@ -218,7 +222,9 @@ def _clear_of_edges(x, y, lengths, limits, room=0.03) -> bool:
     r = np.hypot(x, y)
     if min(abs(r - sum(lengths)), abs(r - abs(lengths[0] - lengths[1]))) < room:
         return False
-    gaps = [np.angle(np.exp(1j * (q[k] - edge))) for q in _postures(x, y, *lengths) for k in (0, 1) for edge in limits[k]]
+    gaps = [
+        np.angle(np.exp(1j * (q[k] - edge))) for q in _postures(x, y, *lengths) for k in (0, 1) for edge in limits[k]
+    ]
     return not gaps or min(map(abs, gaps)) > room
 
 
@@ -315,7 +321,9 @@ QUESTIONS = (
                 "a_turn_further_forgotten",
                 0.7,
                 "**A range may hold the straight arm a turn further on.** 2 pi is as good as 0, and -pi as pi.",
-                lambda _: reach(stretched=lambda low, high: low <= 0 <= high, folded=lambda low, high: low <= np.pi <= high),
+                lambda _: reach(
+                    stretched=lambda low, high: low <= 0 <= high, folded=lambda low, high: low <= np.pi <= high
+                ),
                 lambda _: reach(
                     stretched=lambda low, high: low <= 0 <= high,
                     folded=lambda low, high: low <= np.pi <= high or low <= -np.pi <= high,

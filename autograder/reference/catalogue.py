@@ -131,9 +131,7 @@ def scara_epfl(L1: float = 0.4, L2: float = 0.3, L4: float = 0.1, limits=None) -
 def adept_s600(d2: float = 0.325, d3: float = 0.275, r30: float = 0.0, limits=None) -> Robot:
     """Adept Cobra s600 of the s600 tutorial, in its letters (d, r); axis 4 points down."""
     d2_, d3_, r3, r30_ = sp.symbols("d2 d3 r3 r30")
-    rows = [
-        (0, 0, 0, 0, _t1), (0, d2_, 0, 0, _t2), (1, d3_, 0, r3 + r30_, 0), (0, 0, sp.pi, 0, _t4)
-    ]
+    rows = [(0, 0, 0, 0, _t1), (0, d2_, 0, 0, _t2), (1, d3_, 0, r3 + r30_, 0), (0, 0, sp.pi, 0, _t4)]
     values = {"d2": d2, "d3": d3, "r30": r30}
     return _robot("Adept s600", Scara, rows, values, (_t1, _t2, r3, _t4), limits)
 
@@ -142,8 +140,12 @@ def rx90(a3: float = 0.45, d3: float = 0.45, limits=None) -> Robot:
     """Stäubli RX-90 of the MECA 953 slides."""
     a3_, d3_ = sp.symbols("a3 d3")
     rows = [
-        (0, 0, 0, 0, _t1), (0, 0, _HALF, 0, _t2), (0, a3_, 0, 0, _t3),
-        (0, 0, -_HALF, d3_, _t4), (0, 0, _HALF, 0, _t5), (0, 0, -_HALF, 0, _t6),
+        (0, 0, 0, 0, _t1),
+        (0, 0, _HALF, 0, _t2),
+        (0, a3_, 0, 0, _t3),
+        (0, 0, -_HALF, d3_, _t4),
+        (0, 0, _HALF, 0, _t5),
+        (0, 0, -_HALF, 0, _t6),
     ]
     return _robot("RX-90", WristedArm, rows, {"a3": a3, "d3": d3}, limits=limits)
 
@@ -166,8 +168,13 @@ KR210_JOINTS = (
 
 
 def kr210(
-    d1: float = 0.75, a1: float = 0.35, a2: float = 1.25, a3: float = -0.054,
-    d4: float = 1.5, grip: float = 0.303, limits=None,
+    d1: float = 0.75,
+    a1: float = 0.35,
+    a2: float = 1.25,
+    a3: float = -0.054,
+    d4: float = 1.5,
+    grip: float = 0.303,
+    limits=None,
 ) -> Robot:
     """KR210 from the joint list of the MECA 953 slides (axes of its public description).
 
@@ -178,25 +185,30 @@ def kr210(
     d1_, a1_, a2_, a3_, d4_, grip_ = letters
     q1, q2, q3, q4, q5, q6 = sp.symbols("q1:7")
     rows = [
-        (0, 0, 0, d1_, q1), (0, a1_, -_HALF, 0, q2 - _HALF), (0, a2_, 0, 0, q3),
-        (0, a3_, -_HALF, d4_, q4), (0, 0, _HALF, 0, q5), (0, 0, -_HALF, 0, q6),
+        (0, 0, 0, d1_, q1),
+        (0, a1_, -_HALF, 0, q2 - _HALF),
+        (0, a2_, 0, 0, q3),
+        (0, a3_, -_HALF, d4_, q4),
+        (0, 0, _HALF, 0, q5),
+        (0, 0, -_HALF, 0, q6),
     ]
     values = {s.name: v for s, v in zip(letters, (d1, a1, a2, a3, d4, grip))}
     tool = trans_z(grip_) * rot_z(sp.pi) * rot_y(-_HALF)
     return _robot("KR210", WristedArm, rows, values, limits=limits, tool=tool)
 
 
-def epfl_arm(
-    D3: float = 0.2, L2: float = 0.5, D4: float = 0.6, h: float = 0.0, limits=None
-) -> Robot:
+def epfl_arm(D3: float = 0.2, L2: float = 0.5, D4: float = 0.6, h: float = 0.0, limits=None) -> Robot:
     """Six-axis arm of the EPFL slides; tool point at h from the wrist centre.
 
     `centres.epfl_centres` gives the same model as rotations about centres.
     """
     d3, l2, d4 = sp.symbols("D3 L2 D4")
     rows = [
-        (0, 0, 0, 0, _t1 + _HALF), (0, 0, _HALF, 0, _t2 + _HALF), (0, l2, 0, d3, _t3 + _HALF),
-        (0, 0, _HALF, d4, _t4 + sp.pi), (0, 0, _HALF, 0, _t5 + sp.pi),
+        (0, 0, 0, 0, _t1 + _HALF),
+        (0, 0, _HALF, 0, _t2 + _HALF),
+        (0, l2, 0, d3, _t3 + _HALF),
+        (0, 0, _HALF, d4, _t4 + sp.pi),
+        (0, 0, _HALF, 0, _t5 + sp.pi),
         (0, 0, _HALF, 0, _t6 + _HALF),
     ]
     values = {"D3": D3, "L2": L2, "D4": D4, "h": h}
@@ -212,16 +224,18 @@ def elbow_3r(L1: float = 0.5, L2: float = 0.4, limits=None) -> Robot:
 
 
 def puma(
-    a2: float = 0.43, a3: float = 0.02, d2: float = 0.15, d4: float = 0.43, d6: float = 0.06,
+    a2: float = 0.43,
+    a3: float = 0.02,
+    d2: float = 0.15,
+    d4: float = 0.43,
+    d6: float = 0.06,
     limits=None,
 ) -> Robot:
     """PUMA-like arm of the DH-m slides (Romanian), row 6 corrected to alpha = -90 degrees."""
     return _puma("PUMA-like arm", WristedArm, -_HALF, (a2, a3, d2, d4, d6), limits)
 
 
-def puma_printed(
-    a2: float = 0.43, a3: float = 0.02, d2: float = 0.15, d4: float = 0.43, d6: float = 0.06
-) -> Robot:
+def puma_printed(a2: float = 0.43, a3: float = 0.02, d2: float = 0.15, d4: float = 0.43, d6: float = 0.06) -> Robot:
     """PUMA-like arm as printed: row 6 with alpha = 0 puts axis 6 on axis 5.
 
     It has five freedoms instead of six (`singularities.mobility`) and no inverse model.
@@ -233,15 +247,23 @@ def _puma(name, model, alpha, lengths, limits) -> Robot:
     letters = sp.symbols("a2 a3 d2 d4 d6")
     a2, a3, d2, d4, d6 = letters
     rows = [
-        (0, 0, 0, 0, _t1), (0, 0, -_HALF, 0, _t2), (0, a2, 0, d2, _t3),
-        (0, a3, -_HALF, d4, _t4), (0, 0, _HALF, 0, _t5), (0, 0, alpha, d6, _t6),
+        (0, 0, 0, 0, _t1),
+        (0, 0, -_HALF, 0, _t2),
+        (0, a2, 0, d2, _t3),
+        (0, a3, -_HALF, d4, _t4),
+        (0, 0, _HALF, 0, _t5),
+        (0, 0, alpha, d6, _t6),
     ]
     values = {letter.name: length for letter, length in zip(letters, lengths)}
     return _robot(name, model, rows, values, limits=limits)
 
 
 def pen(
-    h1: float = 0.1, L1: float = 0.3, h2: float = 0.12, L2: float = 0.08, p1: float = 0.5,
+    h1: float = 0.1,
+    L1: float = 0.3,
+    h2: float = 0.12,
+    L2: float = 0.08,
+    p1: float = 0.5,
     reading: str = "printed",
 ) -> Robot:
     """Pen robot as printed, or with its remark on the parallelogram read in one of three ways.
@@ -259,23 +281,23 @@ def pen(
     if reading not in entries:
         raise ValueError(f"reading must be one of {', '.join(entries)}, found {reading!r}")
     h1_, l1, h2_, l2, p1_ = sp.symbols("h1 L1 h2 L2 p1")
-    rows = [
-        (0, 0, 0, h1_, _t1), (0, l1, -_HALF, h2_, entries[reading]), (0, 0, 0, l2, _t3)
-    ]
+    rows = [(0, 0, 0, h1_, _t1), (0, l1, -_HALF, h2_, entries[reading]), (0, 0, 0, l2, _t3)]
     values = {"h1": h1, "L1": L1, "h2": h2, "L2": L2, "p1": p1}
     name = "pen robot" if reading == "printed" else f"pen robot, reading {reading}"
     return _robot(name, PenArm, rows, values, (_t1, _t2, _t3), tool=trans_x(p1_))
 
 
 def pen_repaired(
-    h1: float = 0.1, L1: float = 0.3, h2: float = 0.2, L2: float = 0.25, p1: float = 0.5,
+    h1: float = 0.1,
+    L1: float = 0.3,
+    h2: float = 0.2,
+    L2: float = 0.25,
+    p1: float = 0.5,
     limits=None,
 ) -> Robot:
     """Pen robot with L2 taken as a link length: a hypothetical repair, three real freedoms."""
     h1_, l1, h2_, l2, p1_ = sp.symbols("h1 L1 h2 L2 p1")
-    rows = [
-        (0, 0, 0, h1_, _t1), (0, l1, -_HALF, h2_, _t2 - _HALF), (0, l2, 0, 0, _t3)
-    ]
+    rows = [(0, 0, 0, h1_, _t1), (0, l1, -_HALF, h2_, _t2 - _HALF), (0, l2, 0, 0, _t3)]
     values = {"h1": h1, "L1": L1, "h2": h2, "L2": L2, "p1": p1}
     tool = trans_x(p1_)
     return _robot("pen robot, repaired", ElbowArm, rows, values, limits=limits, tool=tool)

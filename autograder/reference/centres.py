@@ -44,7 +44,4 @@ def epfl_centres(joints, D3, L2, D4) -> list[sp.Matrix]:
     """
     centres = [[0, 0, 0], [0, 0, 0], [0, 0, L2], [D3, 0, 0], [0, 0, L2 + D4], [D3, 0, 0]]
     turns = (rot_z, rot_x, rot_x, rot_z, rot_x, rot_z)
-    return [
-        rotation_about(turn(joint)[:3, :3], centre)
-        for turn, joint, centre in zip(turns, joints, centres)
-    ]
+    return [rotation_about(turn(joint)[:3, :3], centre) for turn, joint, centre in zip(turns, joints, centres)]

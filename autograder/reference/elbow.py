@@ -110,9 +110,7 @@ class ArmGeometry:
         nearer = outside.argmin(axis=0)
         columns = np.arange(tip.shape[-1])
         valid = arm.valid & branches.valid[:, None]
-        miss, cause = outside[nearer, columns], np.where(
-            arm.beyond > arm.short, BEYOND, SHORT
-        )[nearer, columns]
+        miss, cause = outside[nearer, columns], np.where(arm.beyond > arm.short, BEYOND, SHORT)[nearer, columns]
         inside = ~branches.valid[0]
         miss = np.where(inside, branches.inside, miss)
         cause = np.where(inside, INSIDE, cause)
@@ -196,8 +194,11 @@ class ElbowArm(InverseModel):
         q[1] = self.map.joint(1, arm.second)
         q[2] = self.map.joint(2, arm.third)
         return Answer(
-            q.reshape(3, 4, -1), arm.valid.reshape(4, -1), arm.marks.reshape(4, -1),
-            arm.miss, arm.cause,
+            q.reshape(3, 4, -1),
+            arm.valid.reshape(4, -1),
+            arm.marks.reshape(4, -1),
+            arm.miss,
+            arm.cause,
         )
 
     def label(self, branch, marks):
@@ -359,9 +360,7 @@ class WristedArm(InverseModel):
         valid = np.repeat(arm.valid[:, :, None], 2, axis=2)
         valid[:, :, 1] &= wrist_marks == 0
         marks = np.repeat((arm.marks | wrist_marks)[:, :, None], 2, axis=2)
-        return Answer(
-            q.reshape(6, 8, -1), valid.reshape(8, -1), marks.reshape(8, -1), arm.miss, arm.cause
-        )
+        return Answer(q.reshape(6, 8, -1), valid.reshape(8, -1), marks.reshape(8, -1), arm.miss, arm.cause)
 
     def label(self, branch, marks):
         return f"{self.arm.label(branch // 2, marks)}, {self.wrist.label(branch % 2, marks)}"

@@ -68,8 +68,7 @@ class Roots:
     def listed(self):
         """The solutions of a single problem, shape (count,) or (count, u)."""
         if self.exists.ndim != 1:
-            raise ValueError("list one problem at a time: this is a batch of shape "
-                             f"{self.exists.shape[:-1]}")
+            raise ValueError(f"list one problem at a time: this is a batch of shape {self.exists.shape[:-1]}")
         return self.values[self.exists]
 
 
@@ -111,12 +110,10 @@ def type3(X1, Y1, Z1, X2, Y2, Z2, tolerance=1e-9):
     size1, size2 = np.hypot(X1, Y1), np.hypot(X2, Y2)
     det = X1 * Y2 - X2 * Y1
     independent = np.abs(det) > np.maximum(1e-6 * size1 * size2, tolerance**2)
-    angle = np.arctan2(_quotient(Z1 * Y2 - Z2 * Y1, det, independent),
-                       _quotient(X1 * Z2 - X2 * Z1, det, independent))
+    angle = np.arctan2(_quotient(Z1 * Y2 - Z2 * Y1, det, independent), _quotient(X1 * Z2 - X2 * Z1, det, independent))
 
     first = size1 >= size2
-    larger = type2(*(np.where(first, a, b) for a, b in [(X1, X2), (Y1, Y2), (Z1, Z2)]),
-                   tolerance=1e-12)
+    larger = type2(*(np.where(first, a, b) for a, b in [(X1, X2), (Y1, Y2), (Z1, Z2)]), tolerance=1e-12)
     candidates = np.where(independent[..., None], _twice(angle), larger.values)
     exists = np.where(independent[..., None], [True, False], larger.exists)
     S, C = np.sin(candidates), np.cos(candidates)
@@ -150,22 +147,21 @@ def type7(W1, W2, X, Y, Z1, Z2, tolerance=1e-12):
     (W1, W2, X, Y, Z1, Z2), tolerance = _coefficients(tolerance, W1, W2, X, Y, Z1, Z2)
     square = W1**2 + W2**2
     regular = square > tolerance**2
-    outer = type2(2 * (Z1 * Y + Z2 * X), 2 * (Z1 * X - Z2 * Y),
-                  square - X**2 - Y**2 - Z1**2 - Z2**2, tolerance=1e-12)
+    outer = type2(2 * (Z1 * Y + Z2 * X), 2 * (Z1 * X - Z2 * Y), square - X**2 - Y**2 - Z1**2 - Z2**2, tolerance=1e-12)
     alone = type3(Y, X, -Z1, X, -Y, -Z2)
     theta_i = np.where(regular[..., None], outer.values, alone.values)
     C, S = np.cos(theta_i), np.sin(theta_i)
     right1 = X[..., None] * C + Y[..., None] * S + Z1[..., None]
     right2 = X[..., None] * S - Y[..., None] * C + Z2[..., None]
-    theta_j = np.where(regular[..., None],
-                       np.arctan2(W2[..., None] * right1 + W1[..., None] * right2,
-                                  W1[..., None] * right1 - W2[..., None] * right2), 0.0)
+    theta_j = np.where(
+        regular[..., None],
+        np.arctan2(W2[..., None] * right1 + W1[..., None] * right2, W1[..., None] * right1 - W2[..., None] * right2),
+        0.0,
+    )
     infinite = np.where(regular, outer.status == INFINITE, alone.status != NONE)
-    free = np.where(regular, "theta_i", np.where(alone.status == INFINITE,
-                                                 "theta_i and theta_j", "theta_j"))
+    free = np.where(regular, "theta_i", np.where(alone.status == INFINITE, "theta_i and theta_j", "theta_j"))
     exists = outer.exists & regular[..., None]
-    return _roots(np.stack([theta_i, theta_j], axis=-1), exists, infinite, free,
-                  outer.status == DOUBLE)
+    return _roots(np.stack([theta_i, theta_j], axis=-1), exists, infinite, free, outer.status == DOUBLE)
 
 
 def type8(X, Y, Z1, Z2, tolerance=1e-12):
@@ -191,11 +187,10 @@ def type8(X, Y, Z1, Z2, tolerance=1e-12):
     pairs = np.stack([arm.first, arm.bend], axis=-1).swapaxes(0, 1).reshape(X.shape + (2, 2))
     turned = np.pi * np.stack([X < 0, (X < 0) != (Y < 0)], axis=-1)
     alone = np.stack([np.angle(target * np.where(X + Y < 0, -1, 1)), np.zeros_like(rho)], axis=-1)
-    values = np.where(one_link[..., None, None], alone[..., None, :],
-                      wrap(pairs + turned[..., None, :]))
-    free = np.select([no_X & no_Y, no_X, no_Y],
-                     ["theta_i and theta_j", "theta_i (theta_i + theta_j defined)", "theta_j"],
-                     "theta_i")
+    values = np.where(one_link[..., None, None], alone[..., None, :], wrap(pairs + turned[..., None, :]))
+    free = np.select(
+        [no_X & no_Y, no_X, no_Y], ["theta_i and theta_j", "theta_i (theta_i + theta_j defined)", "theta_j"], "theta_i"
+    )
     return _roots(values, _twice(in_reach), in_reach & (one_link | folded), free, double)
 
 

@@ -227,7 +227,8 @@ def _placed(target, link, reach, wished):
     """
     r, towards = np.abs(target), np.angle(target)
     least, most = (
-        2.0 * np.arctan2(
+        2.0
+        * np.arctan2(
             np.sqrt(np.maximum(d**2 - (link - r) ** 2, 0.0)),
             np.sqrt(np.maximum((link + r) ** 2 - d**2, 0.0)),
         )

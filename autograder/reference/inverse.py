@@ -182,7 +182,11 @@ class InverseModel:
         answer = batch[0]
         row = int(batch.valid[0, :branch].sum())
         return Nearest(
-            answer.q[row], distance, answer.labels[row], answer.status, answer.reason,
+            answer.q[row],
+            distance,
+            answer.labels[row],
+            answer.status,
+            answer.reason,
             answer.free_by_row[row],
         )
 

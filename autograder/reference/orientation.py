@@ -96,6 +96,7 @@ def check_rotation(R, tolerance=1e-6):
 
 # -- Euler sets ---------------------------------------------------------------
 
+
 @dataclass(frozen=True)
 class EulerAngles:
     """All Euler angles of a batch of rotations.
@@ -141,22 +142,20 @@ class EulerAngles:
         if not np.all(self.singular):
             raise ValueError("a regular rotation has two solutions and no free angle")
         first, combination, middle, is_sum = np.broadcast_arrays(
-            np.asarray(first, float), self.combination,
-            self.angles[..., 0, 1], self.status == ONLY_SUM)
+            np.asarray(first, float), self.combination, self.angles[..., 0, 1], self.status == ONLY_SUM
+        )
         third = np.where(is_sum, combination - first, first - combination)
         return np.stack([wrap(first), middle, wrap(third)], axis=-1)
 
     def describe(self, names=("first", "second", "third")):
         """The status of a single rotation as a sentence with your angle names."""
         if np.ndim(self.status):
-            raise ValueError("describe one rotation at a time: this is a batch of shape "
-                             f"{np.shape(self.status)}")
+            raise ValueError(f"describe one rotation at a time: this is a batch of shape {np.shape(self.status)}")
         if self.status == REGULAR:
             return REGULAR
         first, _, third = names
         defined, free = ("+", "-") if self.status == ONLY_SUM else ("-", "+")
-        return (f"{first} {defined} {third} = {float(self.combination):.6g} rad, "
-                f"{first} {free} {third} free")
+        return f"{first} {defined} {third} = {float(self.combination):.6g} rad, {first} {free} {third} free"
 
 
 def euler_matrix(angles, axes, *, intrinsic):
@@ -221,11 +220,9 @@ def euler_angles(R, axes, *, intrinsic, tolerance=1e-9):
 
     across = np.hypot(R[..., j, i], R[..., m, i])
     singular = across < tolerance
-    a = np.where(singular, 0.0,
-                 np.arctan2(order * R[..., j, i], -cyclic * order * R[..., m, i]))
+    a = np.where(singular, 0.0, np.arctan2(order * R[..., j, i], -cyclic * order * R[..., m, i]))
     b = order * np.arctan2(np.where(singular, 0.0, across), R[..., i, i])
-    row = (np.cos(a)[..., None] * R[..., j, :]
-           + cyclic * np.sin(a)[..., None] * R[..., m, :])
+    row = np.cos(a)[..., None] * R[..., j, :] + cyclic * np.sin(a)[..., None] * R[..., m, :]
     c = np.arctan2(-cyclic * row[..., m], row[..., j])
 
     upright = R[..., i, i] > 0
@@ -244,8 +241,7 @@ def rpy_matrix(roll, pitch, yaw):
     Each of shape (...), radians. Returns (..., 3, 3). This is the assignment of
     the matrix page of the EPFL slides (their phi, vartheta, psi).
     """
-    return euler_matrix(np.stack(np.broadcast_arrays(roll, pitch, yaw), axis=-1),
-                        "xyz", intrinsic=False)
+    return euler_matrix(np.stack(np.broadcast_arrays(roll, pitch, yaw), axis=-1), "xyz", intrinsic=False)
 
 
 def rpy(R, tolerance=1e-9):
@@ -258,6 +254,7 @@ def rpy(R, tolerance=1e-9):
 
 
 # -- Quaternions, axis and angle -----------------------------------------------
+
 
 @dataclass(frozen=True)
 class AxisAngle:
@@ -278,8 +275,7 @@ class AxisAngle:
 
     def both(self):
         """Both solutions: axes (..., 2, 3) and angles (..., 2) in (-pi, pi]."""
-        return (np.stack([self.axis, -self.axis], axis=-2),
-                wrap(np.stack([self.angle, -self.angle], axis=-1)))
+        return (np.stack([self.axis, -self.axis], axis=-2), wrap(np.stack([self.angle, -self.angle], axis=-1)))
 
 
 def quaternion(R):
@@ -296,16 +292,18 @@ def quaternion(R):
     """
     R = check_rotation(R)
     xx, yy, zz = R[..., 0, 0], R[..., 1, 1], R[..., 2, 2]
-    x, y, z = (R[..., 2, 1] - R[..., 1, 2], R[..., 0, 2] - R[..., 2, 0],
-               R[..., 1, 0] - R[..., 0, 1])
-    xy, xz, yz = (R[..., 0, 1] + R[..., 1, 0], R[..., 0, 2] + R[..., 2, 0],
-                  R[..., 1, 2] + R[..., 2, 1])
+    x, y, z = (R[..., 2, 1] - R[..., 1, 2], R[..., 0, 2] - R[..., 2, 0], R[..., 1, 0] - R[..., 0, 1])
+    xy, xz, yz = (R[..., 0, 1] + R[..., 1, 0], R[..., 0, 2] + R[..., 2, 0], R[..., 1, 2] + R[..., 2, 1])
     # Four times the outer product of (w, x, y, z) with itself: every row is a multiple of it.
-    rows = np.stack([
-        np.stack([1 + xx + yy + zz, x, y, z], axis=-1),
-        np.stack([x, 1 + xx - yy - zz, xy, xz], axis=-1),
-        np.stack([y, xy, 1 - xx + yy - zz, yz], axis=-1),
-        np.stack([z, xz, yz, 1 - xx - yy + zz], axis=-1)], axis=-2)
+    rows = np.stack(
+        [
+            np.stack([1 + xx + yy + zz, x, y, z], axis=-1),
+            np.stack([x, 1 + xx - yy - zz, xy, xz], axis=-1),
+            np.stack([y, xy, 1 - xx + yy - zz, yz], axis=-1),
+            np.stack([z, xz, yz, 1 - xx - yy + zz], axis=-1),
+        ],
+        axis=-2,
+    )
     largest = np.argmax(np.diagonal(rows, axis1=-2, axis2=-1), axis=-1)
     q = np.take_along_axis(rows, largest[..., None, None], axis=-2)[..., 0, :]
     q = q / np.linalg.norm(q, axis=-1, keepdims=True)
@@ -340,10 +338,8 @@ def axis_angle(R, tolerance=1e-9):
     length = np.linalg.norm(q[..., 1:], axis=-1)
     angle = 2 * np.arctan2(length, q[..., 0])
     free = angle < tolerance
-    axis = np.where(free[..., None], (0.0, 0.0, 1.0),
-                    q[..., 1:] / np.where(free, 1.0, length)[..., None])
-    status = np.where(free, AXIS_FREE,
-                      np.where(np.pi - angle < tolerance, HALF_TURN, AXIS_DEFINED))
+    axis = np.where(free[..., None], (0.0, 0.0, 1.0), q[..., 1:] / np.where(free, 1.0, length)[..., None])
+    status = np.where(free, AXIS_FREE, np.where(np.pi - angle < tolerance, HALF_TURN, AXIS_DEFINED))
     return AxisAngle(axis, np.where(free, 0.0, angle), status)
 
 
@@ -359,8 +355,7 @@ def axis_angle_matrix(axis, angle):
         raise ValueError("an axis is three finite numbers, not all zero")
     half = np.asarray(angle, float)[..., None] / 2
     vector = np.sin(half) * (axis / length)
-    return quaternion_matrix(np.concatenate(
-        [np.broadcast_to(np.cos(half), vector.shape[:-1] + (1,)), vector], axis=-1))
+    return quaternion_matrix(np.concatenate([np.broadcast_to(np.cos(half), vector.shape[:-1] + (1,)), vector], axis=-1))
 
 
 def _cross_matrix(v):

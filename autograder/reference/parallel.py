@@ -22,8 +22,8 @@ from .planar import wrap
 
 # In lengths scaled to 1. An error e of a merged mode shows as e^2 in the leg lengths: hence
 # the square between the first two.
-_MERGED = 1e-6    # assembly modes nearer than this are one
-_CLOSED = 1e-12   # a pose closes the legs when no length is off by more
+_MERGED = 1e-6  # assembly modes nearer than this are one
+_CLOSED = 1e-12  # a pose closes the legs when no length is off by more
 _CONGRUENT = 1e-9
 _SINGULAR = 1e-6  # determinant of the scaled constraint Jacobian at merging modes
 
@@ -98,8 +98,7 @@ class ThreeRPR:
         lengths = lengths.reshape(-1, 3)
         scale = np.maximum(lengths.max(axis=-1, initial=0), self._size)
         start, vanishing = self._start_angle(lengths, scale)
-        phi = np.concatenate([self._root_angles(lengths, start),
-                              self._parallel_lines(len(lengths))], axis=-1)
+        phi = np.concatenate([self._root_angles(lengths, start), self._parallel_lines(len(lengths))], axis=-1)
         candidates = self._on_first_leg(lengths, phi)
         candidates, closed, singular = self._polish(lengths, scale, candidates)
         accepted = closed & _first_of_equals(candidates, closed, scale)
@@ -107,8 +106,7 @@ class ThreeRPR:
 
         order = np.argsort(np.where(accepted, poses[..., 2], np.inf), axis=-1, kind="stable")[:, :6]
         exists = np.take_along_axis(accepted, order, axis=-1)
-        values = np.where(exists[..., None],
-                          np.take_along_axis(poses, order[..., None], axis=-2), 0.0)
+        values = np.where(exists[..., None], np.take_along_axis(poses, order[..., None], axis=-2), 0.0)
 
         circle, circle_pose = self._circular_motion(lengths, scale)
         infinite = circle | vanishing
@@ -116,11 +114,15 @@ class ThreeRPR:
         exists[circle, 0] = True
         exists[infinite, 1:] = False
         values[infinite, 1:] = 0.0
-        status = np.select([infinite & exists[:, 0], ~exists.any(axis=-1),
-                            (accepted & singular).any(axis=-1)], [INFINITE, NONE, DOUBLE], SOLVED)
+        status = np.select(
+            [infinite & exists[:, 0], ~exists.any(axis=-1), (accepted & singular).any(axis=-1)],
+            [INFINITE, NONE, DOUBLE],
+            SOLVED,
+        )
         free = np.where(status == INFINITE, np.where(circle, "P along a circle", "phi"), "")
-        return Roots(values.reshape(shape + (6, 3)), exists.reshape(shape + (6,)),
-                     status.reshape(shape), free.reshape(shape))
+        return Roots(
+            values.reshape(shape + (6, 3)), exists.reshape(shape + (6,)), status.reshape(shape), free.reshape(shape)
+        )
 
     # The rest works with B_1 as platform origin and A_1 as base origin. There
     # leg 1 reads |p| = q1 and leg i reads |p + d_i| = q_i, d_i = R b_i - A_i.
@@ -131,8 +133,7 @@ class ThreeRPR:
 
     def _offsets(self, phi):
         """d_2 and d_3 for angles of any shape: (..., 2, 2)."""
-        return (_turn(phi, self.platform[1:] - self.platform[0])
-                - (self.base[1:] - self.base[0]))
+        return _turn(phi, self.platform[1:] - self.platform[0]) - (self.base[1:] - self.base[0])
 
     def _linear(self, lengths, phi):
         """d_i and w_i of the linear equations 2 p . d_i = w_i; lengths (N, 3), phi (N, m)."""
@@ -144,8 +145,7 @@ class ThreeRPR:
         """|w2 d3 - w3 d2|^2 - 4 q1^2 (d2 x d3)^2: zero at the assembly modes."""
         d, w = self._linear(lengths, phi)
         mixed = w[..., 0, None] * d[..., 1, :] - w[..., 1, None] * d[..., 0, :]
-        return (np.sum(mixed**2, axis=-1)
-                - 4 * lengths[:, :1]**2 * _cross(d[..., 0, :], d[..., 1, :])**2)
+        return np.sum(mixed**2, axis=-1) - 4 * lengths[:, :1] ** 2 * _cross(d[..., 0, :], d[..., 1, :]) ** 2
 
     def _polynomial(self, lengths, start):
         """Coefficients in tan((phi - start) / 2), highest power first.
@@ -168,8 +168,7 @@ class ThreeRPR:
         """
         nodes = 2 * np.pi * np.arange(16) / 16
         sampled = np.abs(self._eliminant(lengths, np.broadcast_to(nodes, (len(lengths), 16))))
-        return (nodes[np.argmax(sampled, axis=-1)] - np.pi,
-                sampled.max(axis=-1, initial=0) <= 1e-12 * scale**6)
+        return (nodes[np.argmax(sampled, axis=-1)] - np.pi, sampled.max(axis=-1, initial=0) <= 1e-12 * scale**6)
 
     def _root_angles(self, lengths, start):
         """Angles of the six roots (N, 6), real parts of complex ones included.
@@ -245,14 +244,13 @@ class ThreeRPR:
     def _closure(self, lengths, scale, candidates):
         """Half the errors of the squared lengths and their Jacobian, in lengths scaled to 1."""
         legs = self._leg_vectors(candidates) / scale[..., None, None]
-        errors = (np.sum(legs**2, axis=-1) - (lengths[:, None] / scale[..., None])**2) / 2
+        errors = (np.sum(legs**2, axis=-1) - (lengths[:, None] / scale[..., None]) ** 2) / 2
         turning = _turn(candidates[..., 2] + np.pi / 2, self.platform - self.platform[0])
         turning = turning / scale[..., None, None]
         return errors, np.concatenate([legs, np.sum(legs * turning, axis=-1)[..., None]], axis=-1)
 
     def _platform_pose(self, candidates):
-        P = (candidates[..., :2] + self.base[0]
-             - _turn(candidates[..., 2], self.platform[:1])[..., 0, :])
+        P = candidates[..., :2] + self.base[0] - _turn(candidates[..., 2], self.platform[:1])[..., 0, :]
         return np.concatenate([P, wrap(candidates[..., 2:])], axis=-1)
 
     def _circular_motion(self, lengths, scale):
@@ -308,8 +306,11 @@ class ThreeRRR:
         number = np.arange(3)
         exists = legs.exists[..., number, choices].all(axis=-1)
         values = legs.values[..., number, choices, :].reshape(exists.shape + (6,))
-        status = np.select([(legs.status == NONE).any(-1), (legs.status == INFINITE).any(-1),
-                            (legs.status == DOUBLE).any(-1)], [NONE, INFINITE, DOUBLE], SOLVED)
+        status = np.select(
+            [(legs.status == NONE).any(-1), (legs.status == INFINITE).any(-1), (legs.status == DOUBLE).any(-1)],
+            [NONE, INFINITE, DOUBLE],
+            SOLVED,
+        )
         free = np.where(status == INFINITE, "drive angle of a folded leg", "")
         return Roots(np.where(exists[..., None], values, 0.0), exists, status, free)
 

@@ -109,9 +109,7 @@ def two_link(p, l1: float, l2: float, anchor, tol: float) -> TwoLink:
     valid[..., 1, :] &= ~(stretched | folded)
     marks = np.where(stretched, STRETCHED, 0) | np.where(folded & ~free, FOLDED, 0)
     marks |= np.where(free, FREE_PLANE, 0)
-    return TwoLink(
-        first, bend, first_turn, bend_turn, valid, marks.astype(np.uint8), beyond, short
-    )
+    return TwoLink(first, bend, first_turn, bend_turn, valid, marks.astype(np.uint8), beyond, short)
 
 
 class Shoulder(NamedTuple):

@@ -23,9 +23,7 @@ def jacobian(table: DHTable, q) -> np.ndarray:
     axes = frames[..., :3, 2]
     arms = chain.forward(q)[..., None, :3, 3] - frames[..., :3, 3]
     slides = chain.prismatic[:, None]
-    columns = np.concatenate(
-        [np.where(slides, axes, np.cross(axes, arms)), np.where(slides, 0.0, axes)], axis=-1
-    )
+    columns = np.concatenate([np.where(slides, axes, np.cross(axes, arms)), np.where(slides, 0.0, axes)], axis=-1)
     return np.swapaxes(columns, -1, -2) @ chain.coupling
 
 

@@ -133,8 +133,7 @@ class DHTable:
             rest = sp.expand(rest)
             if not all(entry.is_number for entry in matrix[i, :]) or rest.has(*self.joints):
                 raise ValueError(
-                    f"row {i + 1}: the joint entry {row.variable} must be a sum of joint "
-                    "variables and constants"
+                    f"row {i + 1}: the joint entry {row.variable} must be a sum of joint variables and constants"
                 )
             offsets.append(rest)
         return matrix, offsets
@@ -210,10 +209,7 @@ class DHTable:
         if unknown:
             raise ValueError(f"no symbol {', '.join(unknown)} in the table: it has {sorted(known)}")
         chosen = {known[name]: value for name, value in by_name.items()}
-        rows = [
-            DHRow(row.sigma, *(entry.subs(chosen) for entry in row.parameters))
-            for row in self.rows
-        ]
+        rows = [DHRow(row.sigma, *(entry.subs(chosen) for entry in row.parameters)) for row in self.rows]
         return replace(
             self,
             rows=rows,
@@ -227,14 +223,9 @@ class DHTable:
         """The same robot in classic DH: column a_i, alpha_i moved up by one row."""
         first = self.rows[0]
         shifted = [(row.a, row.alpha) for row in self.rows[1:]] + [(sp.S.Zero, sp.S.Zero)]
-        rows = tuple(
-            DHRow(row.sigma, a, alpha, row.d, row.theta)
-            for row, (a, alpha) in zip(self.rows, shifted)
-        )
+        rows = tuple(DHRow(row.sigma, a, alpha, row.d, row.theta) for row, (a, alpha) in zip(self.rows, shifted))
         base = self.base * trans_x(first.a) * rot_x(first.alpha)
-        return ClassicTable(
-            rows, self.name, self.joints, sp.ImmutableMatrix(base), self.tool, self.values
-        )
+        return ClassicTable(rows, self.name, self.joints, sp.ImmutableMatrix(base), self.tool, self.values)
 
     @classmethod
     def from_classic(cls, rows: Iterable, **options) -> DHTable:
@@ -244,10 +235,7 @@ class DHTable:
         """
         rows = [_row(row, i) for i, row in enumerate(rows, start=1)]
         shifted = [(sp.S.Zero, sp.S.Zero)] + [(row.a, row.alpha) for row in rows]
-        modified = [
-            DHRow(row.sigma, a, alpha, row.d, row.theta)
-            for row, (a, alpha) in zip(rows, shifted)
-        ]
+        modified = [DHRow(row.sigma, a, alpha, row.d, row.theta) for row, (a, alpha) in zip(rows, shifted)]
         a, alpha = shifted[-1]
         tool = trans_x(a) * rot_x(alpha) * _transform(options.pop("tool", None), "tool")
         return cls(modified, tool=tool, **options)
@@ -303,10 +291,7 @@ def _row(row, index: int) -> DHRow:
         raise ValueError(f"row {index}: expected {', '.join(_COLUMNS)}, found {row!r}")
     row = list(row)
     if len(row) != len(_COLUMNS):
-        raise ValueError(
-            f"row {index}: expected {len(_COLUMNS)} columns ({', '.join(_COLUMNS)}), "
-            f"found {len(row)}"
-        )
+        raise ValueError(f"row {index}: expected {len(_COLUMNS)} columns ({', '.join(_COLUMNS)}), found {len(row)}")
     place = 3 if row[0] == 1 else 4
     if row[place] is None:
         row[place] = sp.Symbol(f"q{index}", real=True)
@@ -369,6 +354,9 @@ def _numbers(entries) -> np.ndarray:
 
 
 def _latex(expression: sp.Expr) -> str:
-    names = {s: s.name.replace("t", r"\theta_", 1) for s in expression.free_symbols
-             if s.name[0] == "t" and s.name[1:].isdigit()}
+    names = {
+        s: s.name.replace("t", r"\theta_", 1)
+        for s in expression.free_symbols
+        if s.name[0] == "t" and s.name[1:].isdigit()
+    }
     return sp.latex(expression, symbol_names=names)

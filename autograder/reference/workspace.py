@@ -65,8 +65,7 @@ def planar_points(lengths, q):
     """
     lengths, q = np.asarray(lengths, float), np.asarray(q, float)
     if q.shape[-1:] != lengths.shape:
-        raise ValueError(f"{len(lengths)} lengths need q of shape (..., {len(lengths)}), "
-                         f"found {q.shape}")
+        raise ValueError(f"{len(lengths)} lengths need q of shape (..., {len(lengths)}), found {q.shape}")
     columns = q.reshape(-1, len(lengths))
     points = np.empty((len(columns), 2))
     for block in _blocks(len(columns)):
@@ -145,7 +144,7 @@ class Cells:
     def boundary(self):
         """Centres of the filled cells beside an empty one, shape (k, 2): outline and holes."""
         padded = np.pad(self.filled, 1)
-        enclosed = (padded[:-2, 1:-1] & padded[2:, 1:-1] & padded[1:-1, :-2] & padded[1:-1, 2:])
+        enclosed = padded[:-2, 1:-1] & padded[2:, 1:-1] & padded[1:-1, :-2] & padded[1:-1, 2:]
         return self.corner + (np.argwhere(self.filled & ~enclosed) + 0.5) * self.size
 
 
@@ -208,8 +207,9 @@ class RRArm:
         """
         low, high = self.q2
         if (np.floor(low / np.pi) + 1) * np.pi < high:
-            raise ValueError("the range of q2 has a stretched or folded arm inside: "
-                             "two sheets that may overlap, use area()")
+            raise ValueError(
+                "the range of q2 has a stretched or folded arm inside: two sheets that may overlap, use area()"
+            )
         return self.l1 * self.l2 * self._turn * abs(np.cos(self.q2[0]) - np.cos(self.q2[1]))
 
     def area(self):
@@ -232,8 +232,9 @@ class RRArm:
                     arc, slope = arc - self._turn, slope + 2
                 if self._turn > 2 * np.pi - 2 * psi:
                     arc, slope = arc - self._turn + 2 * np.pi, slope - 2
-            total += (arc * self.l1 * self.l2 * (np.cos(low) - np.cos(high))
-                      + slope * (self._psi_integral(high) - self._psi_integral(low)))
+            total += arc * self.l1 * self.l2 * (np.cos(low) - np.cos(high)) + slope * (
+                self._psi_integral(high) - self._psi_integral(low)
+            )
         return float(total)
 
     def contains(self, points, tolerance=1e-9):
@@ -246,11 +247,9 @@ class RRArm:
         s = 2 * np.arctan2(np.sqrt((far - r) * (far + r)), np.sqrt((r - near) * (r + near)))
         inside = np.zeros(r.shape, bool)
         for bend in (s, -s):
-            first = np.arctan2(y, x) - np.arctan2(self.l2 * np.sin(bend),
-                                                  self.l1 + self.l2 * np.cos(bend))
+            first = np.arctan2(y, x) - np.arctan2(self.l2 * np.sin(bend), self.l1 + self.l2 * np.cos(bend))
             free = r <= tolerance
-            inside |= (_within(bend, self.q2, tolerance)
-                       & (_within(first, self.q1, tolerance) | free))
+            inside |= _within(bend, self.q2, tolerance) & (_within(first, self.q1, tolerance) | free)
         return in_reach & inside
 
     def boundary(self, step=0.01):
@@ -269,8 +268,9 @@ class RRArm:
             points = planar_points((self.l1, self.l2), q)
             edge = self._on_edge(points)
             cuts = np.flatnonzero(np.diff(edge)) + 1
-            outline += [run for run, kept in zip(np.split(points, cuts), np.split(edge, cuts))
-                        if kept[0] and len(run) > 1]
+            outline += [
+                run for run, kept in zip(np.split(points, cuts), np.split(edge, cuts)) if kept[0] and len(run) > 1
+            ]
         return outline
 
     @property
@@ -304,7 +304,7 @@ class RRArm:
 
     def _psi_integral(self, s):
         """Integral of psi l1 l2 sin(s) ds."""
-        return (self.l2**2 * s + self.l1 * self.l2 * np.sin(s) - self._psi(s) * self._radius(s)**2) / 2
+        return (self.l2**2 * s + self.l1 * self.l2 * np.sin(s) - self._psi(s) * self._radius(s) ** 2) / 2
 
     def _on_edge(self, points):
         """Whether a point of some limit curve has unreachable points beside it."""
@@ -327,8 +327,7 @@ def _within(angle, limits, tolerance):
 def _limits(limits):
     limits = np.asarray(limits, float)
     if limits.ndim != 2 or limits.shape[1] != 2 or not np.isfinite(limits).all():
-        raise ValueError("limits are finite pairs (lower, upper), one per joint, "
-                         f"found shape {limits.shape}")
+        raise ValueError(f"limits are finite pairs (lower, upper), one per joint, found shape {limits.shape}")
     if (limits[:, 0] > limits[:, 1]).any():
         raise ValueError("a lower joint limit is above its upper one")
     return limits
@@ -357,8 +356,10 @@ def _positions(robot, q):
         return result[..., :3, 3]
     if result.shape[:-1] == q.shape[:-1] and result.shape[-1] in (2, 3):
         return result
-    raise ValueError(f"forward gives shape {result.shape} for q of shape {q.shape}: expected "
-                     "poses (..., 4, 4) or points (..., 2 or 3)")
+    raise ValueError(
+        f"forward gives shape {result.shape} for q of shape {q.shape}: expected "
+        "poses (..., 4, 4) or points (..., 2 or 3)"
+    )
 
 
 def _section(points):

@@ -60,7 +60,7 @@ def kernel_environment() -> dict[str, str]:
         "MPLBACKEND": "module://matplotlib_inline.backend_inline",
         "MALLOC_ARENA_MAX": "2",
         "PYTHONDONTWRITEBYTECODE": "1",
-        **{name: "1" for name in threads},
+        **dict.fromkeys(threads, "1"),
     }
 
 

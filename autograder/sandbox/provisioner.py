@@ -120,18 +120,14 @@ class SandboxProvisioner(LocalProvisioner):
         self.pid = self.process.pid
         self.pgid = None if self.sandboxed else self.pid
         self.memory_exceeded = False
-        self.relay = Relay(
-            dict(zip(front, back_paths)), self.process.stdout.fileno(), self.limits.message_bytes
-        )
+        self.relay = Relay(dict(zip(front, back_paths)), self.process.stdout.fileno(), self.limits.message_bytes)
         self.relay.start()
         if self.sandboxed:
             self.watch = MemoryWatch(self.pid, bubblewrap.PRIVATE, self.limits.memory, self._too_much_memory)
             self.watch.start()
         return self.connection_info
 
-    def _start(
-        self, descriptors: list[int], options: list[str], env: dict[str, str] | None
-    ) -> subprocess.Popen[bytes]:
+    def _start(self, descriptors: list[int], options: list[str], env: dict[str, str] | None) -> subprocess.Popen[bytes]:
         contents, left_out = read_folder(Path(self.workdir), self.limits.disk // 2) if self.workdir else ({}, [])
         self.left_out = tuple(left_out)
         connection = self._connection(descriptors)

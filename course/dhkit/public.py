@@ -9,7 +9,7 @@ from __future__ import annotations
 import difflib
 import tomllib
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cache
 from importlib import resources
 
 KINDS = (
@@ -105,15 +105,19 @@ def _question(id: str, table: dict) -> PublicQuestion:
     return PublicQuestion(id=id, returns=returns, **{**table, **lists})
 
 
-@lru_cache(maxsize=None)
+@cache
 def _files() -> dict[str, dict]:
     """The tables of every exercise, by its name."""
     files = sorted(resources.files("dhkit.questions").iterdir(), key=lambda file: file.name)
-    texts = {file.name.removesuffix(".toml"): file.read_text(encoding="utf-8") for file in files if file.name.endswith(".toml")}
+    texts = {
+        file.name.removesuffix(".toml"): file.read_text(encoding="utf-8")
+        for file in files
+        if file.name.endswith(".toml")
+    }
     return {exercise: tomllib.loads(text) for exercise, text in texts.items()}
 
 
-@lru_cache(maxsize=None)
+@cache
 def questions() -> dict[str, PublicQuestion]:
     """All questions by id, in the order of their files."""
     return {
@@ -133,7 +137,9 @@ def variant_ranges(exercise: str) -> dict[str, tuple]:
     for name, range_ in ranges.items():
         texts = bool(range_) and all(isinstance(value, str) for value in range_)
         if not texts and not (len(range_) == 3 and range_[0] < range_[1] and range_[2] > 0):
-            raise ValueError(f"{exercise}.toml: {VARIANT}.{name} is neither [lowest, highest, step] nor a list of texts")
+            raise ValueError(
+                f"{exercise}.toml: {VARIANT}.{name} is neither [lowest, highest, step] nor a list of texts"
+            )
     return ranges
 
 

@@ -21,7 +21,9 @@ def numbers(exercise: str, student: str) -> dict[str, float | str]:
     A range ``[lowest, highest, step]`` gives ``lowest + k * step``, a list of texts gives one of them; k, counted from
     0, is the SHA-256 of "<exercise> <name> <student>" modulo the number of values.
     """
-    return {name: _pick(range_, f"{exercise} {name} {student.strip()}") for name, range_ in variant_ranges(exercise).items()}
+    return {
+        name: _pick(range_, f"{exercise} {name} {student.strip()}") for name, range_ in variant_ranges(exercise).items()
+    }
 
 
 def _pick(range_: tuple, text: str) -> float | str:
@@ -44,7 +46,9 @@ class OwnNumbers(dict):
             raise AttributeError(f"there is no number {name!r}; there are {', '.join(self)}") from None
 
     def _repr_markdown_(self) -> str:
-        whose = f"Numbers of **{self.student}**" if self.student != NOBODY else "**Nobody's numbers: type your id above**"
+        whose = (
+            f"Numbers of **{self.student}**" if self.student != NOBODY else "**Nobody's numbers: type your id above**"
+        )
         return f"{whose}: " + ", ".join(f"{name} = {value}" for name, value in self.items())
 
 

@@ -14,10 +14,16 @@ from roboticstoolbox import DHRobot, RevoluteMDH
 
 
 def main(joints_file, poses_file, a3, d3):
-    robot = DHRobot([
-        RevoluteMDH(), RevoluteMDH(alpha=pi / 2), RevoluteMDH(a=float(a3)),
-        RevoluteMDH(alpha=-pi / 2, d=float(d3)), RevoluteMDH(alpha=pi / 2),
-        RevoluteMDH(alpha=-pi / 2)])
+    robot = DHRobot(
+        [
+            RevoluteMDH(),
+            RevoluteMDH(alpha=pi / 2),
+            RevoluteMDH(a=float(a3)),
+            RevoluteMDH(alpha=-pi / 2, d=float(d3)),
+            RevoluteMDH(alpha=pi / 2),
+            RevoluteMDH(alpha=-pi / 2),
+        ]
+    )
     q = np.load(joints_file)
     robot.fkine(q[:10])
     start = perf_counter()

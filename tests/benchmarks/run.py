@@ -68,36 +68,48 @@ def forward():
     if not PEERS.exists():
         return [Row(what, "", "", f"{PEERS.parents[1].name} is missing", target, None)]
     q = random_joints()
-    ours, = best(lambda: ARM.forward(q))
+    (ours,) = best(lambda: ARM.forward(q))
     with tempfile.TemporaryDirectory() as folder:
         joints, poses = Path(folder, "joints.npy"), Path(folder, "poses.npy")
         np.save(joints, q)
         done = subprocess.run(
-            [PEERS, HERE / "peer_fkine.py", joints, poses, str(A3), str(D3)],
-            check=True, capture_output=True, text=True)
+            [PEERS, HERE / "peer_fkine.py", joints, poses, str(A3), str(D3)], check=True, capture_output=True, text=True
+        )
         peer = json.loads(done.stdout.splitlines()[-1])["seconds"]
         must_equal(np.load(poses), ARM.forward(q), "poses")
-    return [Row(what, seconds(ours), seconds(peer), f"{peer / ours:.0f} x", target,
-                peer / ours >= 50)]
+    return [Row(what, seconds(ours), seconds(peer), f"{peer / ours:.0f} x", target, peer / ours >= 50)]
 
 
 def inverse():
     poses = ARM.forward(random_joints())
     quarter = np.pi / 2
-    peer_robot = DhRobot(np.array([quarter, 0, -quarter, quarter, -quarter, 0]),
-                         np.array([0, A3, 0, 0, 0, 0]), np.array([0, 0, 0, D3, 0, 0]))
+    peer_robot = DhRobot(
+        np.array([quarter, 0, -quarter, quarter, -quarter, 0]),
+        np.array([0, A3, 0, 0, 0, 0]),
+        np.array([0, 0, 0, D3, 0, 0]),
+    )
     must_equal(peer_robot.fwdKin(np.full(6, 0.3)), ARM.forward(np.full(6, 0.3)), "the two robots")
-    ours, alone, default = best(lambda: ARM.solve_batch(poses),
-                                lambda: peer_robot.IK_batched(poses, 1),
-                                lambda: peer_robot.IK_batched(poses), turns=4)
+    ours, alone, default = best(
+        lambda: ARM.solve_batch(poses),
+        lambda: peer_robot.IK_batched(poses, 1),
+        lambda: peer_robot.IK_batched(poses),
+        turns=4,
+    )
     postures = int(ARM.solve_batch(poses).count.sum())
     theirs = sum(len(found.Q) for found in peer_robot.IK_batched(poses[:2000]))
     must_equal(theirs, int(ARM.solve_batch(poses[:2000]).count.sum()), "numbers of postures")
     what = f"inverse, {POSES:,} poses of the RX-90, {postures / POSES:.0f} postures each"
-    return [Row(f"{what}; EAIK with {threads}", f"{1e6 * ours / POSES:.2f} us/pose",
-                f"{1e6 * peer / POSES:.2f} us/pose", f"{peer / ours:.2f} x",
-                "no slower than EAIK's C++ batch", peer >= ours)
-            for threads, peer in [("1 thread", alone), ("4 threads, its default", default)]]
+    return [
+        Row(
+            f"{what}; EAIK with {threads}",
+            f"{1e6 * ours / POSES:.2f} us/pose",
+            f"{1e6 * peer / POSES:.2f} us/pose",
+            f"{peer / ours:.2f} x",
+            "no slower than EAIK's C++ batch",
+            peer >= ours,
+        )
+        for threads, peer in [("1 thread", alone), ("4 threads, its default", default)]
+    ]
 
 
 def symbolic():
@@ -108,11 +120,24 @@ def symbolic():
         raise RuntimeError("the two symbolic models differ")
     ratio = simplified[0] / merged[0]
     operations = [int(sum(sp.count_ops(entry) for entry in done[1])) for done in (merged, simplified)]
-    return [Row("symbolic 0T6 of the RX-90", seconds(merged[0]), seconds(simplified[0]),
-                f"{ratio:.0f} x", "30 x faster than sympy.simplify of the product", ratio >= 30),
-            Row("  operations in its entries", str(operations[0]), str(operations[1]),
-                f"{operations[0] / operations[1]:.2f}", "no more than simplify's",
-                operations[0] <= operations[1])]
+    return [
+        Row(
+            "symbolic 0T6 of the RX-90",
+            seconds(merged[0]),
+            seconds(simplified[0]),
+            f"{ratio:.0f} x",
+            "30 x faster than sympy.simplify of the product",
+            ratio >= 30,
+        ),
+        Row(
+            "  operations in its entries",
+            str(operations[0]),
+            str(operations[1]),
+            f"{operations[0] / operations[1]:.2f}",
+            "no more than simplify's",
+            operations[0] <= operations[1],
+        ),
+    ]
 
 
 def workspace_points():
@@ -122,16 +147,25 @@ def workspace_points():
     elbow = first + rng.uniform(*limits[1], POINTS)
     ours, bare = best(
         lambda: workspace.sample(lambda q: workspace.planar_points(lengths, q), limits, POINTS, rng),
-        lambda: (np.cos(first), np.sin(first), np.cos(elbow), np.sin(elbow)))
+        lambda: (np.cos(first), np.sin(first), np.cos(elbow), np.sin(elbow)),
+    )
     side = int(POINTS**0.5)
     q1, q2 = (np.linspace(*pair, side) for pair in limits)
     sums = np.add.outer(q1, q2).ravel()
     grid, grid_bare = best(
-        lambda: workspace.rr_grid(*lengths, q1, q2),
-        lambda: (np.cos(q1), np.sin(q1), np.cos(sums), np.sin(sums)))
-    return [Row(f"{POINTS:,} points of the 2R arm, {how}", seconds(a), seconds(b), f"{a / b:.2f} x",
-                "3 x the bare cosines and sines", a <= 3 * b)
-            for how, a, b in [("random joints drawn too", ours, bare), ("grid", grid, grid_bare)]]
+        lambda: workspace.rr_grid(*lengths, q1, q2), lambda: (np.cos(q1), np.sin(q1), np.cos(sums), np.sin(sums))
+    )
+    return [
+        Row(
+            f"{POINTS:,} points of the 2R arm, {how}",
+            seconds(a),
+            seconds(b),
+            f"{a / b:.2f} x",
+            "3 x the bare cosines and sines",
+            a <= 3 * b,
+        )
+        for how, a, b in [("random joints drawn too", ours, bare), ("grid", grid, grid_bare)]
+    ]
 
 
 def imports():
@@ -140,14 +174,29 @@ def imports():
     The first run leaves our bytecode in the cache, where that of numpy and sympy already is.
     """
     environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
-    script = ("import json; from time import perf_counter as now; a = now(); import numpy, sympy; "
-              "b = now(); import autograder.reference; c = now(); print(json.dumps([b - a, c - b]))")
-    runs = [json.loads(subprocess.run([sys.executable, "-c", script], check=True, text=True,
-                                      capture_output=True, env=environment).stdout)
-            for _ in range(7)]
+    script = (
+        "import json; from time import perf_counter as now; a = now(); import numpy, sympy; "
+        "b = now(); import autograder.reference; c = now(); print(json.dumps([b - a, c - b]))"
+    )
+    runs = [
+        json.loads(
+            subprocess.run(
+                [sys.executable, "-c", script], check=True, text=True, capture_output=True, env=environment
+            ).stdout
+        )
+        for _ in range(7)
+    ]
     peer, added = (min(times) for times in zip(*runs))
-    return [Row("import autograder.reference (peer: numpy and sympy)", seconds(peer + added),
-                seconds(peer), f"+{added:.3f} s", "+0.1 s", added <= 0.1)]
+    return [
+        Row(
+            "import autograder.reference (peer: numpy and sympy)",
+            seconds(peer + added),
+            seconds(peer),
+            f"+{added:.3f} s",
+            "+0.1 s",
+            added <= 0.1,
+        )
+    ]
 
 
 def fresh(action):
@@ -176,8 +225,7 @@ def main():
     table = Table(title="Reference solver against its peers")
     for name in ("what", "ours", "peer", "ratio", "target", ""):
         table.add_column(name, overflow="fold")
-    rows = [row for measure in (forward, inverse, symbolic, workspace_points, imports)
-            for row in measure()]
+    rows = [row for measure in (forward, inverse, symbolic, workspace_points, imports) for row in measure()]
     for row in rows:
         verdict = {True: "[green]met[/]", False: "[red]missed[/]", None: "[yellow]not run[/]"}
         table.add_row(row.what, row.ours, row.peer, row.ratio, row.target, verdict[row.met])

@@ -18,10 +18,10 @@ import sympy
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "questions"))
 
-from answers import VARIANT, entries, evidence, perturbed, right  # noqa: E402
+from answers import VARIANT, entries, evidence, perturbed, right
 
-from autograder.judge import judge  # noqa: E402
-from autograder.questions import names, of_exercise  # noqa: E402
+from autograder.judge import judge
+from autograder.questions import names, of_exercise
 
 
 @dataclass
@@ -76,11 +76,18 @@ def main():
     print(f"{'question':34} {'median':>9} {'max':>9} {'first':>9} {'simplify':>10}  (ms)")
     for times in found:
         peer = f"{1000 * median(times.simplify):10.1f}" if times.simplify else f"{'':10}"
-        print(f"{times.id:34} {1000 * median(times.verdicts):9.2f} {1000 * max(times.verdicts):9.2f} {1000 * times.first:9.1f} {peer}")
+        print(
+            f"{times.id:34} {1000 * median(times.verdicts):9.2f} {1000 * max(times.verdicts):9.2f} {1000 * times.first:9.1f} {peer}"
+        )
     verdicts = [value for times in found for value in times.verdicts]
     simplify = [value for times in found for value in times.simplify]
-    print(f"\n{len(verdicts)} verdicts: median {1000 * median(verdicts):.2f} ms, maximum {1000 * max(verdicts):.1f} ms", end="")
-    print(f"; simplify on {len(simplify)} of these answers: median {1000 * median(simplify):.1f} ms, maximum {1000 * max(simplify):.0f} ms")
+    print(
+        f"\n{len(verdicts)} verdicts: median {1000 * median(verdicts):.2f} ms, maximum {1000 * max(verdicts):.1f} ms",
+        end="",
+    )
+    print(
+        f"; simplify on {len(simplify)} of these answers: median {1000 * median(simplify):.1f} ms, maximum {1000 * max(simplify):.0f} ms"
+    )
 
 
 if __name__ == "__main__":

@@ -5,10 +5,11 @@ from pathlib import Path
 
 import nbformat
 import pytest
-from autograder.grading.bundle import FOR_LECTURERS
-from dhkit.public import questions
 from nbgrader.preprocessors import ClearSolutions
 from traitlets.config import Config
+
+from autograder.grading.bundle import FOR_LECTURERS
+from dhkit.public import questions
 
 ROOT = Path(__file__).parents[2]
 LECTURES = sorted((ROOT / "course").glob("*.ipynb"))

@@ -8,11 +8,12 @@ from pathlib import Path
 
 import nbformat
 import pytest
+from nbclient import NotebookClient
+
 from autograder.judge import misconceptions
 from autograder.questions import exercises
 from autograder.reference import errata, parallel, robots
 from dhkit.public import KINDS, questions
-from nbclient import NotebookClient
 
 ROOT = Path(__file__).parents[2]
 TOPICS = tomllib.loads((ROOT / "docs/syllabus.toml").read_text())["topic"]
@@ -22,7 +23,9 @@ MADE_BY = {"planar": {"PLANAR_4R"}, "pen": {"PEN_A", "PEN_B", "PEN_C"}, "scara_c
 
 
 def asked():
-    cells = [cell for path in (ROOT / "solutions").glob("*/*.ipynb") for cell in nbformat.read(path, as_version=4).cells]
+    cells = [
+        cell for path in (ROOT / "solutions").glob("*/*.ipynb") for cell in nbformat.read(path, as_version=4).cells
+    ]
     return {cell.source.partition('"')[2].partition('"')[0] for cell in cells if cell.source.startswith("check(")}
 
 
@@ -48,7 +51,9 @@ def test_every_topic_is_asked(topic):
 
 def test_there_are_at_least_eighty_questions_of_every_kind():
     assert len(questions()) >= 80
-    kinds = {question.kind for question in questions().values()} | {q.returns.kind for q in questions().values() if q.returns}
+    kinds = {question.kind for question in questions().values()} | {
+        q.returns.kind for q in questions().values() if q.returns
+    }
     assert kinds == set(KINDS)
 
 
@@ -61,7 +66,9 @@ def test_every_robot_is_asked_about():
 
 def test_every_misconception_of_the_catalogue_stands_in_a_tree():
     functions = inspect.getmembers(misconceptions, inspect.isfunction)
-    makes = {name for name, made in functions if made.__module__ == misconceptions.__name__ and not name.startswith("_")}
+    makes = {
+        name for name, made in functions if made.__module__ == misconceptions.__name__ and not name.startswith("_")
+    }
     assert makes - {"classic_transform", "product"} - set(names_used()) == set()
 
 
@@ -73,7 +80,9 @@ def test_every_exercise_has_its_lecture_and_numbers_of_ones_own_are_common():
 def test_the_errata_lecture_shows_every_erratum_with_its_proof():
     lecture = nbformat.read(ROOT / "course/13_errata.ipynb", as_version=4)
     done = NotebookClient(lecture, timeout=120).execute()
-    shown = "\n".join(output.get("data", {}).get("text/html", "") for cell in done.cells for output in cell.get("outputs", ()))
+    shown = "\n".join(
+        output.get("data", {}).get("text/html", "") for cell in done.cells for output in cell.get("outputs", ())
+    )
     known = {erratum.id for erratum in errata.ERRORS + errata.AMBIGUITIES}
     assert len(known) == 61
     assert sorted(known) == sorted(re.findall(r"<code>([\w-]+)</code>", shown)), "each once"

@@ -7,10 +7,11 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dhkit.drawing.chains import chain_frames, draw_chain, draw_chain_postures
 from matplotlib.transforms import Bbox
 from mpl_toolkits.mplot3d import proj3d
 from sympy import Matrix, pi, symbols
+
+from dhkit.drawing.chains import chain_frames, draw_chain, draw_chain_postures
 
 t1, t2, t3, t4, t5, t6, a2, a3, d2, d4 = symbols("t1 t2 t3 t4 t5 t6 a2 a3 d2 d4")
 
@@ -125,7 +126,9 @@ def test_labels_of_a_posed_robot_keep_clear_of_each_other():
         for other, its in found[k + 1 :]:
             width = min(box.x1, its.x1) - max(box.x0, its.x0)
             height = min(box.y1, its.y1) - max(box.y0, its.y0)
-            assert width < 2 or height < 2 or width * height < 0.2 * min(box.width * box.height, its.width * its.height), (
+            assert (
+                width < 2 or height < 2 or width * height < 0.2 * min(box.width * box.height, its.width * its.height)
+            ), (
                 text,
                 other,
             )
@@ -157,7 +160,10 @@ def test_no_posture_is_said():
         (lambda: draw_chain([]), "table"),
         (lambda: draw_chain(KR210, tool=True, frames=(9,)), "frames: expected indices from 0 to 7, found 9"),
         (lambda: draw_chain(WRIST, names=("0", "1")), "names: expected 4"),
-        (lambda: draw_chain_postures(PLANAR, ["t1", "t2"], [(1, 2, 3)]), "solutions: expected n x 2 numbers, found 1 x 3"),
+        (
+            lambda: draw_chain_postures(PLANAR, ["t1", "t2"], [(1, 2, 3)]),
+            "solutions: expected n x 2 numbers, found 1 x 3",
+        ),
     ],
 )
 def test_bad_input_is_refused_in_words(draw, message):

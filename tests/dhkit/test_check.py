@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 import sympy
+
 from dhkit import check, hint, public, wire
 from dhkit.check import answer_probes
 from dhkit.public import PublicQuestion, _question

@@ -6,6 +6,7 @@ matplotlib.use("Agg")
 
 import numpy as np
 import pytest
+
 from dhkit.drawing import planar_points
 from dhkit.drawing.direct import draw_six_axes, draw_turn_about, draw_turns, turn_about
 
@@ -22,7 +23,9 @@ def test_a_turn_leaves_its_centre_alone():
 def test_both_orders_of_the_turns_end_in_the_same_posture(hand_first):
     lengths, q = (0.5, 0.4, 0.2), (0.6, 0.9, -1.1)
     panels = draw_turns(lengths, q, hand_first=hand_first)
-    hands = [line.get_xydata()[0] for line in panels[-1].lines if line.get_marker() == "o" and line.get_markersize() == 5]
+    hands = [
+        line.get_xydata()[0] for line in panels[-1].lines if line.get_marker() == "o" and line.get_markersize() == 5
+    ]
     assert np.allclose(hands, [planar_points(lengths, q)[-1]])
     centres = [ax.lines[-1].get_xydata()[0] for ax in panels]
     fixed = [(0.9, 0), (0.5, 0), (0, 0)]

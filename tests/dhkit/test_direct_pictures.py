@@ -6,10 +6,11 @@ matplotlib.use("Agg")
 
 import numpy as np
 import pytest
+from sympy import Matrix, Symbol, cos, sin
+
 from dhkit.drawing.chains import chain_frames
 from dhkit.drawing.direct import turn_in_space
 from dhkit.pictures import direct_models as pictures
-from sympy import Matrix, Symbol, cos, sin
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -41,7 +42,11 @@ def test_the_hand_turns_about_its_centre_only_with_the_right_column():
     L1, L2, t4 = map(Symbol, ("L1", "L2", "t4"))
 
     def hand(blanks):
-        return min(np.hypot(*(line.get_xydata()[0] - (0.9, 0))) for line in SHOWS["turned_hand"](blanks).lines if line.get_color() == "#a9a9a9")
+        return min(
+            np.hypot(*(line.get_xydata()[0] - (0.9, 0)))
+            for line in SHOWS["turned_hand"](blanks).lines
+            if line.get_color() == "#a9a9a9"
+        )
 
     assert hand([(L1 + L2) * (1 - cos(t4)), -(L1 + L2) * sin(t4)]) < 1e-9
     assert hand([L1 * (1 - cos(t4)), -L1 * sin(t4)]) > 0.1
@@ -55,7 +60,9 @@ def test_links_carried_by_right_turns_end_on_the_hand():
     def gap(K):
         ax = SHOWS["turns"](K)
         (path,) = (line for line in ax.lines if line.get_color() == pictures.YOURS and line.get_linestyle() == "--")
-        dots = [np.ravel(line.get_data_3d()) for line in ax.lines if line.get_marker() == "o" and line.get_markersize() == 5]
+        dots = [
+            np.ravel(line.get_data_3d()) for line in ax.lines if line.get_marker() == "o" and line.get_markersize() == 5
+        ]
         return np.linalg.norm(np.array(path.get_data_3d())[:, -1] - dots[-1])
 
     assert gap(K) < 1e-9

@@ -7,9 +7,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dhkit import drawing, strokes
 from matplotlib.patches import Circle
 from mpl_toolkits.mplot3d import proj3d
+
+from dhkit import drawing, strokes
 
 Q = (0.6, 0.9)
 LENGTHS = (0.5, 0.4)

@@ -9,6 +9,7 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
 import pytest
+
 from dhkit import interactive
 from dhkit.drawing import draw_planar_arm
 

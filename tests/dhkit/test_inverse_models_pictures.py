@@ -7,6 +7,7 @@ matplotlib.use("Agg")
 import numpy as np
 import pytest
 import sympy
+
 from dhkit.drawing.chains import chain_frames
 from dhkit.pictures import inverse_models as pictures
 
@@ -21,7 +22,14 @@ def arm(t1, t2, t3):
 
 
 def rx90(t1, t2, t3, t4, t5, t6, a3=0.45, d3=0.45):
-    return [[0, 0, 0, 0, t1], [0, 0, H, 0, t2], [0, a3, 0, 0, t3], [0, 0, -H, d3, t4], [0, 0, H, 0, t5], [0, 0, -H, 0, t6]]
+    return [
+        [0, 0, 0, 0, t1],
+        [0, 0, H, 0, t2],
+        [0, a3, 0, 0, t3],
+        [0, 0, -H, d3, t4],
+        [0, 0, H, 0, t5],
+        [0, 0, -H, 0, t6],
+    ]
 
 
 PRINTED = [[0, 0, 0, 0, 0.1], [0, 0, H, 0, 0.4], [0, 0.5, 0, 0, 0.3]]
@@ -62,7 +70,11 @@ def test_no_answer_raises(name, answer):
 
 def test_every_posture_says_whether_it_reaches_the_point():
     ax = SHOWN["postures"]([ARM, {"t3": ARM[2], "t2": ARM[1], "t1": ARM[0] + 2 * np.pi}, (0.4, 0.7, -0.8)])
-    assert [text.get_text().partition(": ")[2] for text in ax.texts] == ["on the target", "on the target", "0.040 m off"]
+    assert [text.get_text().partition(": ")[2] for text in ax.texts] == [
+        "on the target",
+        "on the target",
+        "0.040 m off",
+    ]
     for alone in (ARM, np.array(ARM), sympy.Matrix([ARM]), dict(zip(("t1", "t2", "t3"), ARM))):
         assert said(SHOWN["postures"](alone)) == "1: on the target"
 

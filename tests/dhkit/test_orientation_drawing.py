@@ -7,6 +7,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+
 from dhkit.drawing.orientation import draw_atan2, draw_flip, draw_gimbal, draw_top, draw_turns, gimbal_axes, turned
 
 ANGLES = np.radians([50, 35, 20])

@@ -6,10 +6,11 @@ matplotlib.use("Agg")
 
 import numpy as np
 import pytest
-from dhkit.drawing.orientation import turned
-from dhkit.pictures.orientation import show_rotation, show_rpy_entries, show_triples, show_wrist, show_wrist_formulas
 from mpl_toolkits.mplot3d import Axes3D
 from sympy import atan2, cos, sin, sqrt, symbols
+
+from dhkit.drawing.orientation import turned
+from dhkit.pictures.orientation import show_rotation, show_rpy_entries, show_triples, show_wrist, show_wrist_formulas
 
 phi, theta, psi, e, r12, r13, r22, r32, r11 = symbols("phi theta psi e r12 r13 r22 r32 r11")
 SAMPLE = {"phi": 0.4, "theta": 0.6, "psi": 0.8}
@@ -26,7 +27,9 @@ def said(ax) -> str:
 def apart(ax) -> float:
     """Largest angle between a grey axis and the coloured arrow of the hand it belongs to."""
     grey = [np.array(line.get_data_3d()) for line in ax.lines if line.get_linewidth() == 5]
-    hands = [np.array(line.get_data_3d()) for line in ax.lines if line.get_linewidth() == 1.6 and line.get_zorder() == 6]
+    hands = [
+        np.array(line.get_data_3d()) for line in ax.lines if line.get_linewidth() == 1.6 and line.get_zorder() == 6
+    ]
     assert len(grey) == len(hands) > 0
     unit = [(ends[:, -1] - ends[:, 0]) / np.linalg.norm(ends[:, -1] - ends[:, 0]) for ends in grey + hands]
     return max(np.degrees(np.arccos(np.clip(a @ b, -1, 1))) for a, b in zip(unit, unit[len(grey) :]))
@@ -40,13 +43,20 @@ def zyz(R):
     return [(np.arctan2(R[1, 2], R[0, 2]), np.arctan2(root, R[2, 2]), np.arctan2(R[2, 1], -R[2, 0]))]
 
 
-RIGHT_ENTRIES = [sin(psi) * sin(theta) * sin(phi) + cos(psi) * cos(phi), sin(psi) * sin(theta) * cos(phi) - cos(psi) * sin(phi)]
+RIGHT_ENTRIES = [
+    sin(psi) * sin(theta) * sin(phi) + cos(psi) * cos(phi),
+    sin(psi) * sin(theta) * cos(phi) - cos(psi) * sin(phi),
+]
 RIGHT_WRIST = [atan2(e * r32, e * r22), atan2(-r12, e * sqrt(r32**2 + r22**2)), atan2(e * r13, e * r11)]
 PICTURES = {
     "rotation": (lambda answer: show_rotation(answer, "zyx", SAMPLE, ORDER), ROTATION, ROTATION.T),
     "rpy_entries": (lambda answer: show_rpy_entries(answer, SAMPLE), RIGHT_ENTRIES, RIGHT_ENTRIES[::-1]),
     "triples": (lambda answer: show_triples(answer, "zyx", ROTATION, (2, 1, 0)), [(0.4, 0.6, 0.8)], [(0.8, 0.6, 0.4)]),
-    "wrist_formulas": (lambda answer: show_wrist_formulas(answer, "xzy"), RIGHT_WRIST, [atan2(r32, r22), *RIGHT_WRIST[1:]]),
+    "wrist_formulas": (
+        lambda answer: show_wrist_formulas(answer, "xzy"),
+        RIGHT_WRIST,
+        [atan2(r32, r22), *RIGHT_WRIST[1:]],
+    ),
     "wrist": (show_wrist, zyz, lambda R: [(0.0, 0.0, 0.0)]),
 }
 

@@ -7,10 +7,11 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from sympy import cos, sin, symbols
+
 from autograder.reference.parallel import ThreeRPR, ThreeRRR
 from dhkit.drawing import parallel
 from dhkit.pictures import parallel_robots as pictures
-from sympy import cos, sin, symbols
 
 BASE = np.array([(0, 0), (1.0, 0), (0.3, 0.6)])
 PLATFORM = np.array([(-0.2, -0.2), (0.2, -0.2), (0.1, 0.3)])
@@ -26,7 +27,9 @@ def texts(ax):
 
 def rings(ax):
     """Centres of the round marks that have no fill."""
-    return np.array([line.get_xydata()[0] for line in ax.lines if line.get_marker() == "o" and line.get_mfc() == "none"])
+    return np.array(
+        [line.get_xydata()[0] for line in ax.lines if line.get_marker() == "o" and line.get_mfc() == "none"]
+    )
 
 
 def test_platform_points_are_turned_then_moved():
@@ -153,7 +156,9 @@ def test_the_cross_sits_where_the_formula_says():
 
 
 def test_circles_have_the_radii_that_the_function_returns():
-    circles = [patch for patch in shown("leg_lengths", lambda *pose: [0.3, 0.4, 0.5]).patches if hasattr(patch, "radius")]
+    circles = [
+        patch for patch in shown("leg_lengths", lambda *pose: [0.3, 0.4, 0.5]).patches if hasattr(patch, "radius")
+    ]
     assert [circle.radius for circle in circles] == [0.3, 0.4, 0.5]
 
 

@@ -7,9 +7,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from sympy import pi, symbols
+
 from dhkit.drawing.scenes import draw_parallel, draw_reading, draw_shelf
 from dhkit.pictures import parameters as pictures
-from sympy import pi, symbols
 
 READING = (0.5, np.radians(40), 0.3, np.radians(50))
 SKEW = ([0.2, 0.1, 0.9], [0, 0, 1]), ([0.9, 0.15, 0.4], [1, 2, 1])

@@ -7,11 +7,12 @@ matplotlib.use("Agg")
 import numpy as np
 import pytest
 import sympy
+from matplotlib.patches import Circle
+
 from dhkit.curves import PEN_CURVES, pen_path
 from dhkit.drawing import pen
 from dhkit.drawing.chains import chain_frames
 from dhkit.pictures import pen as pictures
-from matplotlib.patches import Circle
 
 Q = np.radians([35, 20, 45])
 HALF = np.pi / 2
@@ -53,7 +54,9 @@ def test_every_drawing_can_be_shown(name):
 
 def test_the_circles_on_the_sheet_are_points_of_the_surface():
     circles = [patch.radius for patch in pen.draw_pen_sheet(0.15).patches if isinstance(patch, Circle)]
-    for phi, radius in zip((np.pi - np.arcsin(np.sqrt(1 - (0.15 / 0.22) ** 2)), np.pi + np.arccos(0.15 / 0.22)), circles):
+    for phi, radius in zip(
+        (np.pi - np.arcsin(np.sqrt(1 - (0.15 / 0.22) ** 2)), np.pi + np.arccos(0.15 / 0.22)), circles
+    ):
         x, y, z = pen.pen_tip([0.3, phi, 0.0])
         assert (np.hypot(x, y), z) == pytest.approx((radius, 0.15))
     assert not [patch for patch in pen.draw_pen_sheet(0.05).patches if isinstance(patch, Circle)]
@@ -80,7 +83,7 @@ def test_bad_input_is_refused_in_words(draw, words):
 def test_a_curve_can_be_written_by_sharing_the_angle_only(shape):
     """phi is beyond the stop of one joint somewhere, but never beyond those of both."""
     turn, phi = np.degrees(pen_path(shape)).T
-    assert 70 < phi.min() and 90 < phi.max() < 135
+    assert phi.min() > 70 and 90 < phi.max() < 135
     assert np.allclose(pen.pen_curve(shape), pen.pen_tip(np.radians([turn, phi / 2, phi / 2]).T))
 
 

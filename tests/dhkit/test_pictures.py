@@ -8,8 +8,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import sympy
-from dhkit import pictures
 from sympy import Abs, Matrix, atan2, cos, sin
+
+from dhkit import pictures
 
 t1, t2, t4, a2, a3, d2, L1, L2, x, y = sympy.symbols("t1 t2 t4 a2 a3 d2 L1 L2 x y")
 SCARA = {"t1": -0.4, "t2": 1.0, "t4": -0.9, "a2": 0.4, "a3": 0.3, "d2": 0.2}

@@ -7,8 +7,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dhkit.drawing import postures
 from mpl_toolkits.mplot3d import proj3d
+
+from dhkit.drawing import postures
 
 H = np.pi / 2
 ELBOW = [(0.3, 0.2, 1.2), (0.3 + np.pi, np.pi - 0.2, -1.2)]
@@ -17,7 +18,14 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 
 def rx90(t1, t2, t3, t4, t5, t6):
-    return [[0, 0, 0, 0, t1], [0, 0, H, 0, t2], [0, 0.45, 0, 0, t3], [0, 0, -H, 0.45, t4], [0, 0, H, 0, t5], [0, 0, -H, 0, t6]]
+    return [
+        [0, 0, 0, 0, t1],
+        [0, 0, H, 0, t2],
+        [0, 0.45, 0, 0, t3],
+        [0, 0, -H, 0.45, t4],
+        [0, 0, H, 0, t5],
+        [0, 0, -H, 0, t6],
+    ]
 
 
 TABLES = [rx90(0.3, 0.6, -0.4, 0.2 * k, 0.9, 0.1) for k in range(5)]

@@ -7,6 +7,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from mpl_toolkits.mplot3d import proj3d
+
 from dhkit.drawing.rules import (
     STEPS,
     common_normal,
@@ -17,7 +19,6 @@ from dhkit.drawing.rules import (
     draw_two_axes,
     link_direction,
 )
-from mpl_toolkits.mplot3d import proj3d
 
 UP = (0, 0, 1)
 SKEW = ((0, 0, 0.75), UP), ((1, 0.5, 0.25), (0, -1, 1))

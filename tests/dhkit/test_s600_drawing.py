@@ -7,8 +7,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dhkit.drawing.s600 import LENGTHS, draw_s600_side, draw_s600_top, draw_type8
 from matplotlib.patches import Polygon
+
+from dhkit.drawing.s600 import LENGTHS, draw_s600_side, draw_s600_top, draw_type8
 
 Q = np.radians([30, 50, 20])
 

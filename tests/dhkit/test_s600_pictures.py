@@ -6,9 +6,10 @@ matplotlib.use("Agg")
 
 import numpy as np
 import pytest
-from dhkit.pictures.scara_s600 import show_classic, show_configurations, show_linear, show_mgi, show_on_s600
 from mpl_toolkits.mplot3d import Axes3D
 from sympy import cos, pi, sin, symbols
+
+from dhkit.pictures.scara_s600 import show_classic, show_configurations, show_linear, show_mgi, show_on_s600
 
 X, Y, Z1, Z2, tj, d2, d3, r3, r30, t1, t2, t4 = symbols("X Y Z1 Z2 tj d2 d3 r3 r30 t1 t2 t4")
 SAMPLE = {"t1": -0.4, "t2": 1.0, "r3": -0.1, "t4": 0.6, "d2": 0.325, "d3": 0.275, "r30": -0.08}
@@ -72,7 +73,11 @@ def solved(x, y, z, omega, l2, l3, constant):
     c2 = (x**2 + y**2 - l2**2 - l3**2) / (2 * l2 * l3)
     if abs(c2) > 1 + 1e-9:
         return []
-    bends = {np.arccos(np.clip(c2, -1, 1)), -np.arccos(np.clip(c2, -1, 1))} if abs(c2) < 1 - 1e-9 else {np.arccos(np.sign(c2))}
+    bends = (
+        {np.arccos(np.clip(c2, -1, 1)), -np.arccos(np.clip(c2, -1, 1))}
+        if abs(c2) < 1 - 1e-9
+        else {np.arccos(np.sign(c2))}
+    )
     first = {bend: np.arctan2(y, x) - np.arctan2(l3 * np.sin(bend), l2 + l3 * np.cos(bend)) for bend in bends}
     return [(first[bend], bend, z - constant, first[bend] + bend - omega) for bend in bends]
 

@@ -6,6 +6,7 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
 import pytest
+
 from dhkit.drawing.statements import draw_marks_by_line
 
 pytestmark = pytest.mark.filterwarnings("error")

@@ -6,6 +6,7 @@ matplotlib.use("Agg")
 
 import numpy as np
 import pytest
+
 from dhkit.drawing import tables
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -28,7 +29,11 @@ def test_second_angle_moves_the_arm_only_in_the_classic_reading():
 
 def test_each_joint_origin_is_marked_where_it_is():
     ax = tables.draw_joint_origins(ORIGINS, AXES)
-    marked = {tuple(np.ravel(line.get_data())) for line in ax.lines if line.get_marker() in "oD" and len(line.get_xdata()) == 1}
+    marked = {
+        tuple(np.ravel(line.get_data()))
+        for line in ax.lines
+        if line.get_marker() in "oD" and len(line.get_xdata()) == 1
+    }
     assert marked == {(x, z) for x, _, z in ORIGINS}
 
 

@@ -6,6 +6,7 @@ matplotlib.use("Agg")
 
 import numpy as np
 import pytest
+
 from dhkit.pictures import tables as pictures
 
 HALF = np.pi / 2
@@ -65,7 +66,8 @@ def test_frames_of_a_table_stand_over_the_joint_origins():
 
 
 @pytest.mark.parametrize(
-    ("cell", "value", "says"), [((2, 2), -1, "left-handed"), ((0, 1), 0.5, "not orthogonal"), ((3, 0), 1, "not orthogonal")]
+    ("cell", "value", "says"),
+    [((2, 2), -1, "left-handed"), ((0, 1), 0.5, "not orthogonal"), ((3, 0), 1, "not orthogonal")],
 )
 def test_what_no_motor_does_is_said_below_the_frame(cell, value, says):
     assert not pictures.show_gripper(np.eye(4)).figure.texts

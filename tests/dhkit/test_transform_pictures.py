@@ -7,6 +7,7 @@ matplotlib.use("Agg")
 import numpy as np
 import pytest
 import sympy
+
 from dhkit import strokes
 from dhkit.drawing.transforms import walk_frames
 from dhkit.pictures import transforms as pictures

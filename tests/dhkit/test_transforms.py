@@ -7,8 +7,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dhkit.drawing import transforms
 from mpl_toolkits.mplot3d import proj3d
+
+from dhkit.drawing import transforms
 
 A, ALPHA, D, THETA = 0.7, 0.6, 1.1, 0.9
 WALK = [("trans_x", A), ("rot_x", ALPHA), ("trans_z", D), ("rot_z", THETA)]

@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import pytest
+
 from dhkit import public, variants, wire
 from dhkit.variants import numbers, variant
 
@@ -26,7 +27,12 @@ def test_the_numbers_of_a_student_never_change():
 
 def test_a_fresh_process_with_another_hash_seed_finds_the_same():
     code = "from dhkit import variants; variants.variant_ranges = lambda _: {'a': (0.0, 1000.0, 1.0)}; print(variants.numbers('arm', 'ada'))"
-    found = {subprocess.run([sys.executable, "-c", code], env={"PYTHONHASHSEED": seed}, capture_output=True, text=True, check=True).stdout for seed in "17"}
+    found = {
+        subprocess.run(
+            [sys.executable, "-c", code], env={"PYTHONHASHSEED": seed}, capture_output=True, text=True, check=True
+        ).stdout
+        for seed in "17"
+    }
     assert len(found) == 1
 
 
@@ -43,7 +49,7 @@ def test_spaces_around_an_id_do_not_matter():
 
 def test_numbers_are_read_by_name_and_shown():
     mine = variant("arm", "ada")
-    assert mine.L1 == mine["L1"] and "ada" in mine._repr_markdown_() and "L1" in mine._repr_markdown_()
+    assert mine["L1"] == mine.L1 and "ada" in mine._repr_markdown_() and "L1" in mine._repr_markdown_()
     with pytest.raises(AttributeError, match="no number 'L9'; there are L1, x, elbow"):
         mine.L9
 

@@ -7,6 +7,7 @@ matplotlib.use("Agg")
 import numpy as np
 import pytest
 import sympy
+
 from dhkit.drawing import planar_points
 from dhkit.drawing import workspace as ws
 from dhkit.pictures import workspace as pictures

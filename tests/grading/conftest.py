@@ -39,7 +39,11 @@ def _forward(t1, t2, d2, t4, a2, a3):
 QUESTIONS = {
     question.id: question
     for question in (
-        Question("scara.T04", lambda v: _transform(-1), (mistake("sign_of_d2", 0.5, "**The sign of d2.**", lambda v: _transform(1)),)),
+        Question(
+            "scara.T04",
+            lambda v: _transform(-1),
+            (mistake("sign_of_d2", 0.5, "**The sign of d2.**", lambda v: _transform(1)),),
+        ),
         Question("scara.d2_sign", lambda v: "B"),
         Question("scara.forward", lambda v: _forward, probe=lambda rng: rng.uniform(0.1, 1, (4, 6)).tolist()),
     )
@@ -67,7 +71,14 @@ def solution():
         marks = {"schema_version": 3, "grade": False, "solution": True, "locked": False, "grade_id": f"{check}-answer"}
         source = f"{name} = ...\n### BEGIN SOLUTION\n{ANSWERS[check]}\n### END SOLUTION"
         cells.append(new_code_cell(source, id=f"{check}-answer", metadata={"nbgrader": marks}))
-        marks = {"schema_version": 3, "grade": True, "solution": False, "locked": True, "points": points, "grade_id": check}
+        marks = {
+            "schema_version": 3,
+            "grade": True,
+            "solution": False,
+            "locked": True,
+            "points": points,
+            "grade_id": check,
+        }
         source = f'check("{check.replace("-", ".", 1)}", {name})'
         cells.append(new_code_cell(source, id=check, metadata={"nbgrader": marks}))
         cells.append(new_markdown_cell(f"After {name}.", id=f"{check}-after"))
@@ -93,7 +104,14 @@ def answered(released, **answers):
 def small():
     """The helpers of this file, by name."""
     return SimpleNamespace(
-        CHECKS=CHECKS, ANSWERS=ANSWERS, T04=T04, REPOSITORY=REPOSITORY, solution=solution, cell=cell, answered=answered, hand_in=hand_in
+        CHECKS=CHECKS,
+        ANSWERS=ANSWERS,
+        T04=T04,
+        REPOSITORY=REPOSITORY,
+        solution=solution,
+        cell=cell,
+        answered=answered,
+        hand_in=hand_in,
     )
 
 

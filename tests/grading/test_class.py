@@ -42,10 +42,16 @@ def submissions(small, released):
         cell(nb, "scara-T04-answer").source = "T04 = ..."
         cell(nb, "scara-T04-answer").metadata["nbgrader"] = {"grade_id": "scara-T04-answer", "locked": "maybe"}
         nb.metadata["autograder"] = {"unreadable": "", "submission": "0" * 64, "repairs": "<b>"}
-        nb.cells.append(new_code_cell("6", metadata={"nbgrader": {"grade_id": "scara-gift", "grade": True, "points": 50, "schema_version": 9}}))
+        nb.cells.append(
+            new_code_cell(
+                "6", metadata={"nbgrader": {"grade_id": "scara-gift", "grade": True, "points": 50, "schema_version": 9}}
+            )
+        )
 
     def noise(nb):
-        nb.cells.insert(1, new_code_cell("import sys, warnings\nwarnings.warn('odd')\nprint('noise', file=sys.stderr)\n1/0"))
+        nb.cells.insert(
+            1, new_code_cell("import sys, warnings\nwarnings.warn('odd')\nprint('noise', file=sys.stderr)\n1/0")
+        )
 
     def scripts(nb):
         nb.cells.insert(0, new_markdown_cell(f"{SCRIPT} ![gone](attachment:gone.png) <img src=x onerror=alert(1)>"))
@@ -145,7 +151,13 @@ def stock(handed_in, tmp_path_factory):
         for make, options in ((AutogradeApp, LIMITS), (GenerateFeedbackApp, {}), (ExportApp, {})):
             app = make()
             words = [] if make is ExportApp else ["scara"]
-            app.initialize([*words, "--log-level=CRITICAL", *(f"--SandboxExecute.{name}={value}" for name, value in options.items())])
+            app.initialize(
+                [
+                    *words,
+                    "--log-level=CRITICAL",
+                    *(f"--SandboxExecute.{name}={value}" for name, value in options.items()),
+                ]
+            )
             app.start()
     finally:
         os.chdir(here)
@@ -157,7 +169,9 @@ def copy_unless_pipe(source, target, **options):
 
 
 def contents(folder):
-    return {str(path): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file() and not path.is_symlink()}
+    return {
+        str(path): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file() and not path.is_symlink()
+    }
 
 
 def rows(root, query):
@@ -191,7 +205,9 @@ def test_one_json_object_for_every_submission(results, expected):
 
 
 def test_scores_and_notes_are_those_expected(results, expected):
-    found = {student: (line["score"], [answer["note"] for answer in line["answers"]]) for student, line in results.items()}
+    found = {
+        student: (line["score"], [answer["note"] for answer in line["answers"]]) for student, line in results.items()
+    }
     assert found == {student: (score, notes) for student, (_, score, notes, _) in expected.items()}
 
 
@@ -219,13 +235,24 @@ def test_stock_nbgrader_keeps_the_same_feedback(ours, stock, expected):
 
 def test_submissions_are_not_touched(handed_in, ours, stock):
     for root in (ours, stock):
-        now = {path.replace(str(root), str(handed_in)): content for path, content in contents(root / "submitted").items()}
+        now = {
+            path.replace(str(root), str(handed_in)): content for path, content in contents(root / "submitted").items()
+        }
         assert now == contents(handed_in / "submitted")
 
 
 def test_nothing_else_is_written_and_nothing_stays(ours, expected):
     made = {path.name for path in ours.iterdir()}
-    assert made == {"solutions", "exercises", "submitted", "autograded", "feedback", "gradebook.db", "nbgrader_config.py", "graded.jsonl"}
+    assert made == {
+        "solutions",
+        "exercises",
+        "submitted",
+        "autograded",
+        "feedback",
+        "gradebook.db",
+        "nbgrader_config.py",
+        "graded.jsonl",
+    }
     for step, name in (("autograded", "scara.ipynb"), ("feedback", "scara.html")):
         files = sorted(str(path.relative_to(ours / step)) for path in (ours / step).rglob("*") if not path.is_dir())
         assert files == sorted(f"{student}/scara/{name}" for student in expected)
@@ -262,7 +289,9 @@ def test_formgrader_shows_the_notes_and_runs_no_script(ours, monkeypatch):
     extension = FormgradeExtension()
     extension.initialize([])
     exporter = HTMLExporter(config=extension.config)
-    page, _ = exporter.from_filename(str(ours / "autograded/scripts/scara/scara.ipynb"), resources={"index": 0, "total": 1, "base_url": ""})
+    page, _ = exporter.from_filename(
+        str(ours / "autograded/scripts/scara/scara.ipynb"), resources={"index": 0, "total": 1, "base_url": ""}
+    )
     student = BeautifulSoup(page, "html.parser").find(id="notebook-container")
     for control in student.find_all(["button", "input", "textarea"]):
         control.decompose()

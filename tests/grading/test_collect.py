@@ -21,7 +21,9 @@ MOODLE, CANVAS = re.findall(r'^c\.FileNameCollectorPlugin\.named_regexp = r"(.+)
     ],
 )
 def test_a_downloaded_file_finds_its_student(pattern, name, student, exercise):
-    found = FileNameCollectorPlugin(named_regexp=pattern).collect(f"/course_1/downloaded/{exercise}/extracted/all_2/{name}")
+    found = FileNameCollectorPlugin(named_regexp=pattern).collect(
+        f"/course_1/downloaded/{exercise}/extracted/all_2/{name}"
+    )
     assert (found["student_id"], found["file_id"]) == (student, exercise)
 
 

@@ -48,7 +48,10 @@ def test_the_shown_defaults_are_those_of_the_sandbox():
         assert read(default) == getattr(Limits(), name.replace("-", "_"))
 
 
-@pytest.mark.parametrize("words", [("--memory", "-1"), ("--memory", "1T"), ("--cell-seconds", "nan"), ("--jobs", "0"), ("--output-bytes", "")])
+@pytest.mark.parametrize(
+    "words",
+    [("--memory", "-1"), ("--memory", "1T"), ("--cell-seconds", "nan"), ("--jobs", "0"), ("--output-bytes", "")],
+)
 def test_limits_that_make_no_sense_are_refused(empty_course, words, capsys):
     with pytest.raises(SystemExit) as end:
         run(empty_course, "grade", "scara", *words)
@@ -129,7 +132,9 @@ def test_without_a_sandbox_grading_is_refused(course_copy, small, released, caps
     assert "20/20" in output.out and "no sandbox; students' code runs with your rights" in output.err
 
 
-def test_a_submission_that_cannot_be_judged_is_said_and_the_others_are_graded(course_copy, small, released, capsys, monkeypatch):
+def test_a_submission_that_cannot_be_judged_is_said_and_the_others_are_graded(
+    course_copy, small, released, capsys, monkeypatch
+):
     from autograder.grading import preprocessors
 
     for student in ("ann", "ben", "ev\x1bil"):
@@ -283,7 +288,9 @@ def test_an_interrupt_leaves_a_gradebook_and_no_kernel(course_copy, small, relea
     words = ["grade", "scara", "--course", str(course_copy), "--jobs", "2"]
     # A job in the background is started with Ctrl-C ignored, and hands that on: here it must be heard.
     listen = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
-    process = subprocess.Popen([sys.executable, str(driver), *words], stderr=subprocess.PIPE, text=True, preexec_fn=listen)
+    process = subprocess.Popen(
+        [sys.executable, str(driver), *words], stderr=subprocess.PIPE, text=True, preexec_fn=listen
+    )
     kernels = []
     deadline = time.monotonic() + 60
     while time.monotonic() < deadline and not (course_copy / "autograded/a right one/scara/scara.ipynb").exists():

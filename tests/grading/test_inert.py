@@ -34,14 +34,37 @@ ATTACKS = [
 def test_markdown_cannot_act(text):
     page = markdown2html({}, text)
     tags = re.findall(r"<\s*([a-zA-Z]+)([^>]*)>", page)
-    assert not {name.lower() for name, _ in tags} & {"script", "svg", "iframe", "form", "input", "style", "base", "meta", "link", "math"}
+    assert not {name.lower() for name, _ in tags} & {
+        "script",
+        "svg",
+        "iframe",
+        "form",
+        "input",
+        "style",
+        "base",
+        "meta",
+        "link",
+        "math",
+    }
     for name, attributes in tags:
-        assert not re.search(r"\bon\w+\s*=|javascript:|data:text|style=|\bid=|btn", attributes, re.I), (name, attributes)
+        assert not re.search(r"\bon\w+\s*=|javascript:|data:text|style=|\bid=|btn", attributes, re.I), (
+            name,
+            attributes,
+        )
 
 
 def test_markdown_stays_readable():
-    page = markdown2html({}, "# Title\n\n**bold** $a<b$ and `code`\n\n| a | b |\n|---|---|\n| 1 | 2 |\n\n```python\nx = 1\n```")
-    for piece in ("<h1>Title</h1>", "<strong>bold</strong>", "$a&lt;b$", "<code>code</code>", "<td>1</td>", '<span class="n">x</span>'):
+    page = markdown2html(
+        {}, "# Title\n\n**bold** $a<b$ and `code`\n\n| a | b |\n|---|---|\n| 1 | 2 |\n\n```python\nx = 1\n```"
+    )
+    for piece in (
+        "<h1>Title</h1>",
+        "<strong>bold</strong>",
+        "$a&lt;b$",
+        "<code>code</code>",
+        "<td>1</td>",
+        '<span class="n">x</span>',
+    ):
         assert piece in page
 
 
@@ -55,8 +78,17 @@ def test_long_markdown_is_shown_as_text():
 
 
 def test_outputs_keep_text_formulas_and_pictures_only():
-    html = {"text/html": "<script>1</script>", "application/javascript": "alert(1)", "text/plain": "x", "image/png": "QUJD\n"}
-    bad = {"image/png": '"><script>', "image/svg+xml": "<svg/>", "application/vnd.jupyter.widget-view+json": {"model_id": "1"}}
+    html = {
+        "text/html": "<script>1</script>",
+        "application/javascript": "alert(1)",
+        "text/plain": "x",
+        "image/png": "QUJD\n",
+    }
+    bad = {
+        "image/png": '"><script>',
+        "image/svg+xml": "<svg/>",
+        "application/vnd.jupyter.widget-view+json": {"model_id": "1"},
+    }
     outputs = [
         new_output("display_data", data=html, metadata={"text/html": {"isolated": True}}),
         new_output("execute_result", data=bad, execution_count=99),
@@ -66,7 +98,10 @@ def test_outputs_keep_text_formulas_and_pictures_only():
         {"output_type": "error", "ename": 3, "evalue": "e", "traceback": "no list"},
     ]
     kept = inert_outputs(outputs, 4)
-    assert [dict(output.data) for output in kept[:2]] == [{"text/plain": "x", "image/png": "QUJD\n"}, {"image/svg+xml": "<svg/>"}]
+    assert [dict(output.data) for output in kept[:2]] == [
+        {"text/plain": "x", "image/png": "QUJD\n"},
+        {"image/svg+xml": "<svg/>"},
+    ]
     assert kept[0].metadata == {} and kept[1].execution_count == 4
     assert kept[2].text == "ab" and kept[3].traceback == [] and len(kept) == 4
 
@@ -76,7 +111,9 @@ def test_terminal_text_holds_no_control():
     assert terminal_text("x" * 300, 10) == "xxxxxxx..."
 
 
-@pytest.mark.parametrize("share, most, expected", [(0, 3, 0), (1, 3, 3), (0.5, 3, 1.5), (1 / 3, 2, 0.67), (1, 0.1 + 0.2, 0.1 + 0.2)])
+@pytest.mark.parametrize(
+    "share, most, expected", [(0, 3, 0), (1, 3, 3), (0.5, 3, 1.5), (1 / 3, 2, 0.67), (1, 0.1 + 0.2, 0.1 + 0.2)]
+)
 def test_points_follow_the_share(share, most, expected):
     assert points(share, most) == expected
     assert 0 <= points(share, most) <= most

@@ -15,7 +15,14 @@ def notebook(*cells, **more):
 
 
 def code(source, **metadata):
-    return {"cell_type": "code", "id": "a", "metadata": metadata, "source": source, "outputs": [], "execution_count": None}
+    return {
+        "cell_type": "code",
+        "id": "a",
+        "metadata": metadata,
+        "source": source,
+        "outputs": [],
+        "execution_count": None,
+    }
 
 
 @pytest.fixture
@@ -86,9 +93,15 @@ def test_a_pipe_does_not_block(path):
 
 
 def test_only_type_source_pictures_and_claims_survive(path):
-    cell = code(["x = ", "1\n"], nbgrader={"grade_id": "scara-T04", "points": 99, "grade": True}, autograder={"share": 1})
+    cell = code(
+        ["x = ", "1\n"], nbgrader={"grade_id": "scara-T04", "points": 99, "grade": True}, autograder={"share": 1}
+    )
     text = {"cell_type": "markdown", "metadata": {"nbgrader": "no"}, "source": "![](attachment:a.png)"}
-    text["attachments"] = {"a.png": {"image/png": "QUJD"}, "b.png": {"image/png": '"><script>'}, "c": {"text/html": "QUJD"}}
+    text["attachments"] = {
+        "a.png": {"image/png": "QUJD"},
+        "b.png": {"image/png": '"><script>'},
+        "c": {"text/html": "QUJD"},
+    }
     raw = notebook(cell, text, metadata={"kernelspec": {"name": "julia\ud800"}, "widgets": {}})
     path.write_text(json.dumps(raw))
     nb = read_submission(path)

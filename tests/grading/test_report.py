@@ -9,7 +9,6 @@ import nbformat
 import pytest
 import sympy
 from bs4 import BeautifulSoup
-from dhkit import wire
 
 from autograder import cli
 from autograder.grading.converters import SubmissionAutograde
@@ -20,6 +19,7 @@ from autograder.grading.reading import fingerprint
 from autograder.grading.report import ClassReport, class_report, discrimination
 from autograder.judge import Evidence
 from autograder.judge.written import written
+from dhkit import wire
 
 t1, t2, t4, a2, a3, d2 = sympy.symbols("t1 t2 t4 a2 a3 d2")
 NAMES = ("T04", "d2_sign", "forward")
@@ -61,13 +61,17 @@ def grade(root, answers):
         folder = root / "submitted" / student / "scara"
         folder.mkdir(parents=True)
         evidence = {
-            f"scara-{name}": Evidence(wire.bundle(f"scara.{name}", answer=value if isinstance(value, dict) else wire.encode(value)))
+            f"scara-{name}": Evidence(
+                wire.bundle(f"scara.{name}", answer=value if isinstance(value, dict) else wire.encode(value))
+            )
             for name, value in zip(NAMES, values, strict=True)
         }
         (folder / "scara.ipynb").write_bytes(released.read_bytes())
         executions[student, "scara"] = Execution(fingerprint(folder, released.read_bytes()), {}, evidence)
     if answers:
-        convert(SubmissionAutograde(coursedir=course.app.coursedir, parent=course.app, executions=executions, force=True))
+        convert(
+            SubmissionAutograde(coursedir=course.app.coursedir, parent=course.app, executions=executions, force=True)
+        )
     return course
 
 
@@ -133,7 +137,12 @@ def test_equivalent_wrong_answers_stand_together(report):
 
 
 def test_only_unexplained_answers_stay_in_the_graded_notebook(course):
-    for student, expected in {"ann": [], "ben": ["scara-T04"], "eva": [], "cem": ["scara-T04", "scara-d2_sign"]}.items():
+    for student, expected in {
+        "ann": [],
+        "ben": ["scara-T04"],
+        "eva": [],
+        "cem": ["scara-T04", "scara-d2_sign"],
+    }.items():
         nb = nbformat.read(course.step("autograded", student, "scara") / "scara.ipynb", as_version=4)
         marked = [cell for cell in nb.cells if "answer" in cell.metadata.get("autograder", {})]
         assert [cell.metadata.nbgrader["grade_id"] for cell in marked] == expected
@@ -164,7 +173,9 @@ def test_the_tables_hold_the_same_and_no_formula(report, tmp_path):
     write_report(report, tmp_path / "a/b")
     rows = {name: list(csv.DictReader((tmp_path / "a/b" / name).open(encoding="utf-8"))) for name in tables(report)}
     assert [row["question"] for row in rows["questions.csv"]] == ["scara.T04", "scara.d2_sign", "scara.forward"]
-    assert {row["note"]: row["count"] for row in rows["notes.csv"] if row["question"] == "scara.forward"} == {"not_attempted": "7"}
+    assert {row["note"]: row["count"] for row in rows["notes.csv"] if row["question"] == "scara.forward"} == {
+        "not_attempted": "7"
+    }
     assert (rows["answers.csv"][0]["size"], rows["answers.csv"][0]["students"]) == ("2", "ben; cem")
     alone = next(row for row in rows["answers.csv"] if HOSTILE in row["students"])
     assert alone["students"] == f"'{HOSTILE}"
@@ -187,10 +198,15 @@ def test_a_folder_that_is_a_file_is_refused(report, tmp_path):
 
 def test_a_notebook_that_was_changed_or_lost_does_not_end_the_report(course_copy):
     course = grade(course_copy, {name: CLASS[name] for name in ("ben", "cem", "dot", "eva")})
-    for student, text in {"ben": "[" * 5000, "dot": '{"format":1,"question":"scara.T04","answer":{"eval":"1"}}'}.items():
+    for student, text in {
+        "ben": "[" * 5000,
+        "dot": '{"format":1,"question":"scara.T04","answer":{"eval":"1"}}',
+    }.items():
         path = course.step("autograded", student, "scara") / "scara.ipynb"
         nb = nbformat.read(path, as_version=4)
-        next(cell for cell in nb.cells if "answer" in cell.metadata.get("autograder", {})).metadata["autograder"]["answer"] = text
+        next(cell for cell in nb.cells if "answer" in cell.metadata.get("autograder", {})).metadata["autograder"][
+            "answer"
+        ] = text
         nbformat.write(nb, path)
     (course.step("autograded", "cem", "scara") / "scara.ipynb").unlink()
     first = class_report(course, "scara").questions[0]

@@ -9,7 +9,6 @@ from nbformat.v4 import new_code_cell, new_markdown_cell
 
 from autograder.grading.restore import grade_id, is_check, restore
 
-
 CHECKS = ("scara-T04", "scara-d2_sign", "scara-forward")
 
 
@@ -121,7 +120,12 @@ def test_a_whole_question_deleted_comes_back_in_its_place(right, released):
     right.cells = [cell for cell in right.cells if not (grade_id(cell) or "").startswith("scara-d2_sign")]
     nb = restore(right, released)
     sound(nb, released)
-    assert place(nb, "scara-T04") < place(nb, "scara-d2_sign-answer") < place(nb, "scara-d2_sign") < place(nb, "scara-forward-answer")
+    assert (
+        place(nb, "scara-T04")
+        < place(nb, "scara-d2_sign-answer")
+        < place(nb, "scara-d2_sign")
+        < place(nb, "scara-forward-answer")
+    )
 
 
 def test_an_answer_turned_into_text_is_code_again(right, released):

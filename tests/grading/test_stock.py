@@ -63,11 +63,23 @@ def line(*notes, **more):
 
 
 def test_the_line_of_the_class_table():
-    assert line(("T04", "sign_of_d2", None), ("U1", "not_attempted", None), ("dhm", "right", None)).found() == "T04: sign_of_d2; U1: not_attempted"
+    assert (
+        line(("T04", "sign_of_d2", None), ("U1", "not_attempted", None), ("dhm", "right", None)).found()
+        == "T04: sign_of_d2; U1: not_attempted"
+    )
     assert line(("T04", "right", None), ("U1", "right", None)).found() == "all right"
-    assert line(("T04", "unreadable", "x"), ("U1", "unreadable", "x"), remarks=("cut off",)).found() == "all 2: unreadable; cut off"
+    assert (
+        line(("T04", "unreadable", "x"), ("U1", "unreadable", "x"), remarks=("cut off",)).found()
+        == "all 2: unreadable; cut off"
+    )
     many = [(name, "not_attempted", None) for name in ("a", "b", "c")]
-    assert line(*many, ("d", "timeout", "stopped after 30 s")).found() == "a, b, c: not_attempted; d: timeout (stopped after 30 s)"
-    assert line(("T04", "error", "\x1b[31mNo\nname" + "x" * 100), ("U1", "right", None)).found() == f"T04: error (No name{'x' * 70}...)"
+    assert (
+        line(*many, ("d", "timeout", "stopped after 30 s")).found()
+        == "a, b, c: not_attempted; d: timeout (stopped after 30 s)"
+    )
+    assert (
+        line(("T04", "error", "\x1b[31mNo\nname" + "x" * 100), ("U1", "right", None)).found()
+        == f"T04: error (No name{'x' * 70}...)"
+    )
     assert line(status="failed", remarks=("could not be run",)).found() == "could not be run"
     assert json.loads(json.dumps(line(("T04", "right", None)).as_json()))["answers"][0]["question"] == "scara.T04"

@@ -1,7 +1,8 @@
 """The table at the top of a feedback page."""
 
-from autograder.grading.preprocessors import _summary
 from nbformat.v4 import new_code_cell, new_output
+
+from autograder.grading.preprocessors import _summary
 
 
 def test_both_of_two_mistakes_are_told():

@@ -11,6 +11,7 @@ from itertools import product
 import numpy as np
 import pytest
 import sympy
+
 from autograder.judge.axes import Chain, NotAChain
 from autograder.judge.chains import SAME_MODEL, Freedom, same_chain
 from autograder.judge.decode import Call, Number, Symbol, decode_answer
@@ -41,7 +42,24 @@ class Table:
 def transform(a, alpha, d, theta):
     """TransX(a) RotX(alpha) TransZ(d) RotZ(theta)."""
     c, s, ca, sa, zero, one = np.cos(theta), np.sin(theta), np.cos(alpha), np.sin(alpha), 0 * theta, 1 + 0 * theta
-    rows = [c, -s, zero, a * one, s * ca, c * ca, -sa * one, -sa * d * one, s * sa, c * sa, ca * one, ca * d * one, zero, zero, zero, one]
+    rows = [
+        c,
+        -s,
+        zero,
+        a * one,
+        s * ca,
+        c * ca,
+        -sa * one,
+        -sa * d * one,
+        s * sa,
+        c * sa,
+        ca * one,
+        ca * d * one,
+        zero,
+        zero,
+        zero,
+        one,
+    ]
     return np.stack(np.broadcast_arrays(*rows), axis=-1).reshape(*np.shape(rows[7]), 4, 4)
 
 
@@ -224,7 +242,9 @@ def twists(table, moved, step=1e-5):
     steps = step * np.eye(moved.shape[-1])
     rate = (hand(table, moved[..., None, :] + steps) - hand(table, moved[..., None, :] - steps)) / (2 * step)
     rate = rate @ np.linalg.inv(hand(table, moved))[..., None, :, :]
-    return np.stack([rate[..., 2, 1], rate[..., 0, 2], rate[..., 1, 0], rate[..., 0, 3], rate[..., 1, 3], rate[..., 2, 3]], axis=-1)
+    return np.stack(
+        [rate[..., 2, 1], rate[..., 0, 2], rate[..., 1, 0], rate[..., 0, 3], rate[..., 1, 3], rate[..., 2, 3]], axis=-1
+    )
 
 
 def _pairings(one, other):
@@ -334,7 +354,10 @@ def fit(student, reference, signs, rng, starts=6, rounds=60):
         new_o, new_turns = o + step[:, :n], _exponential(step[:, n:]) @ turns
         new_ours, new_r = residual(new_o, new_turns, signs)
         better = (new_r**2).sum(axis=1) < cost
-        o, turns, ours, r = (np.where(better.reshape(-1, *(1,) * (x.ndim - 1)), y, x) for x, y in ((o, new_o), (turns, new_turns), (ours, new_ours), (r, new_r)))
+        o, turns, ours, r = (
+            np.where(better.reshape(-1, *(1,) * (x.ndim - 1)), y, x)
+            for x, y in ((o, new_o), (turns, new_turns), (ours, new_ours), (r, new_r))
+        )
         damping = np.where(better, damping / 5, damping * 4)
     return float(np.sqrt((r**2).sum(axis=1).min()))
 
@@ -465,7 +488,9 @@ def single_cell_change(table, rng):
         row, column = rng.integers(len(table.sigma)), rng.integers(4)
         cell, right = table.cells[row, column], PI / 2 if column in (ALPHA, THETA) else 0.1
         shift = rng.uniform(0.05, 1.5)
-        new = rng.choice([-cell, cell + right, cell + shift, cell - shift, 0.0, table.cells[row, (column + rng.integers(1, 4)) % 4]])
+        new = rng.choice(
+            [-cell, cell + right, cell + shift, cell - shift, 0.0, table.cells[row, (column + rng.integers(1, 4)) % 4]]
+        )
         if abs(new - cell) > 1e-3:
             cells = table.cells.copy()
             cells[row, column] = new
@@ -502,7 +527,11 @@ def test_with_the_model_pinned_the_tables_of_one_model_are_equal_and_no_others(n
     for k in range(60):
         changes = Changes(reference if k % 2 else single_cell_change(reference, rng), rng)
         for _ in range(rng.integers(1, 5)):
-            inner = [(what, row) for what, row in changes.possible() if what in ("flip_x", "flip_z", "turn_x", "origin", "axis")]
+            inner = [
+                (what, row)
+                for what, row in changes.possible()
+                if what in ("flip_x", "flip_z", "turn_x", "origin", "axis")
+            ]
             inner = [(what, row) for what, row in inner if row < len(changes.table.sigma) - 1 or k % 3 == 0]
             if inner:
                 changes.do(*inner[rng.integers(len(inner))])
@@ -532,11 +561,20 @@ def test_the_oracle_finds_gauge_changes(name):
 
 t1, t2, t3, t4, t5, t6, d2, a2, a3, d3, L1, L2 = sympy.symbols("t1:7 d2 a2 a3 d3 L1 L2")
 RIGHT = sympy.pi / 2
-LENGTHS = {name: np.random.default_rng(k).uniform(0.2, 1.5, 12) for k, name in enumerate(("a2", "a3", "d3", "L1", "L2"))}
+LENGTHS = {
+    name: np.random.default_rng(k).uniform(0.2, 1.5, 12) for k, name in enumerate(("a2", "a3", "d3", "L1", "L2"))
+}
 SCARA_JOINTS, ARM_JOINTS = ("t1", "t2", "d2", "t4"), ("t1", "t2", "t3", "t4", "t5", "t6")
 
 SCARA = [[0, 0, 0, 0, t1], [0, a2, 0, 0, t2], [1, a3, 0, -d2, 0], [0, 0, 0, 0, t4]]
-RX90 = [[0, 0, 0, 0, t1], [0, 0, RIGHT, 0, t2], [0, a3, 0, 0, t3], [0, 0, -RIGHT, d3, t4], [0, 0, RIGHT, 0, t5], [0, 0, -RIGHT, 0, t6]]
+RX90 = [
+    [0, 0, 0, 0, t1],
+    [0, 0, RIGHT, 0, t2],
+    [0, a3, 0, 0, t3],
+    [0, 0, -RIGHT, d3, t4],
+    [0, 0, RIGHT, 0, t5],
+    [0, 0, -RIGHT, 0, t6],
+]
 
 
 def decoded(rows):
@@ -666,7 +704,14 @@ def test_one_freedom_is_named_and_its_amount_told(rows, freedoms, offsets):
 
 def test_rx90_with_all_twists_positive_is_the_same_robot():
     pi = sympy.pi
-    rows = [RX90[0], RX90[1], *([0, a, RIGHT if i else 0, d, t + pi] for i, (a, d, t) in enumerate([(a3, 0, t3), (0, d3, t4), (0, 0, t5), (0, 0, t6)]))]
+    rows = [
+        RX90[0],
+        RX90[1],
+        *(
+            [0, a, RIGHT if i else 0, d, t + pi]
+            for i, (a, d, t) in enumerate([(a3, 0, t3), (0, d3, t4), (0, 0, t5), (0, 0, t6)])
+        ),
+    ]
     match = against_rx90(rows, pinned=SAME_MODEL)
     assert match.equal and named(match) == {"sense of X3", "sense of X5"}
     plain = [[*row[:4], t] for row, t in zip(rows, (t1, t2, t3, t4, t5, t6))]
@@ -680,7 +725,9 @@ def test_kr210_with_another_base_tool_and_zero():
     joints = [joint.name for joint in letters.joints]
     bare = same_chain(read(rows, joints), Chain.of_table(letters))
     assert bare.equal and named(bare) == {"tool frame"}
-    no_offset = same_chain(read(changed(changed(rows, 2, "theta", letters.joints[1]), 1, "d", 0), joints), Chain.of_table(letters))
+    no_offset = same_chain(
+        read(changed(changed(rows, 2, "theta", letters.joints[1]), 1, "d", 0), joints), Chain.of_table(letters)
+    )
     assert no_offset.equal and named(no_offset) == {"base frame", "zero of joint 2", "tool frame"}
 
 

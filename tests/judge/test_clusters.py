@@ -6,7 +6,6 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import sympy
-from dhkit import wire
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -15,10 +14,13 @@ from autograder.judge.clusters import MAX_KEPT, Attempt, cluster, is_unexplained
 from autograder.judge.decode import Call, Constant, Number, Symbol, Text, decode_answer
 from autograder.judge.evaluate import evaluate
 from autograder.judge.written import LIMIT, written
+from dhkit import wire
 
 t1, t2, a2, a3, d2, x, y, z = sympy.symbols("t1 t2 a2 a3 d2 x y z")
 MODEL = Question("scara.model", lambda variant: [a2 * sympy.cos(t1), a2 * sympy.sin(t1), -d2, t1], angles=(3,))
-TABLE = Question("scara.table", lambda variant: [[0, 0, 0, 0, t1], [0, a2, 0, 0, t2], [1, a3, 0, -d2, 0], [0, 0, 0, 0, 0]])
+TABLE = Question(
+    "scara.table", lambda variant: [[0, 0, 0, 0, t1], [0, a2, 0, 0, t2], [1, a3, 0, -d2, 0], [0, 0, 0, 0, 0]]
+)
 POSTURES = Question("scara.postures", lambda variant: [[0, 0, 0, 0]], angles=(0, 1, 3), tolerance=1e-3)
 FORWARD = Question("scara.forward", lambda variant: max)
 CHOICE = Question("scara.d2_sign", lambda variant: "B")
@@ -31,7 +33,11 @@ def decoded(value, id="any"):
 def attempts(question, *answers, said="Not right."):
     """Students a, b, c ... with these answers, each taken through what grading keeps."""
     return [
-        Attempt(chr(ord("a") + i), said, kept(question.id, keep(question.id, wire.bundle(question.id, answer=wire.encode(answer)))))
+        Attempt(
+            chr(ord("a") + i),
+            said,
+            kept(question.id, keep(question.id, wire.bundle(question.id, answer=wire.encode(answer)))),
+        )
         for i, answer in enumerate(answers)
     ]
 
@@ -78,14 +84,20 @@ def test_two_tables_without_a_joint_do_not_end_the_report():
 
 
 def test_functions_go_by_the_judges_words_without_their_measures():
-    said = ["Wrong for reach (misses by up to 0.352).", "Wrong for reach (misses by up to 1.2e-05).", "Wrong for the rest."]
+    said = [
+        "Wrong for reach (misses by up to 0.352).",
+        "Wrong for reach (misses by up to 1.2e-05).",
+        "Wrong for the rest.",
+    ]
     found = [Attempt(name, words) for name, words in zip("abc", said)]
     assert students(FORWARD, found) == ["ab", "c"]
     assert not any(one.alike for one in cluster(FORWARD, found))
 
 
 def test_answers_in_another_form_or_lost_go_by_words():
-    found = attempts(MODEL, [1, 2], [1, 2, 3], said="Expected four expressions.") + [Attempt("lost", "Entry 1 differs.")]
+    found = attempts(MODEL, [1, 2], [1, 2, 3], said="Expected four expressions.") + [
+        Attempt("lost", "Entry 1 differs.")
+    ]
     assert students(MODEL, found) == ["ab", "lost"]
 
 
@@ -105,7 +117,12 @@ def test_the_right_answer_is_there_to_compare():
 
 def test_notes_that_name_a_mistake_are_explained():
     assert all(map(is_unexplained, ("nothing_matched", "partly_right", "one_cell", "malformed")))
-    assert not any(map(is_unexplained, ("right", "right_from_earlier", "sign_of_d2", "not_attempted", "error", "same_chain_other_frames")))
+    assert not any(
+        map(
+            is_unexplained,
+            ("right", "right_from_earlier", "sign_of_d2", "not_attempted", "error", "same_chain_other_frames"),
+        )
+    )
 
 
 @pytest.mark.parametrize(
@@ -124,7 +141,9 @@ def deep(levels):
     return '{"format":1,"question":"scara.model","answer":' + "[" * levels + "]" * levels + "}"
 
 
-@pytest.mark.parametrize("text", [None, 7, ["[]"], "", "1/0", "NaN", deep(100), deep(9_000), deep(MAX_KEPT), "9" * 6000, '{"a":1}'])
+@pytest.mark.parametrize(
+    "text", [None, 7, ["[]"], "", "1/0", "NaN", deep(100), deep(9_000), deep(MAX_KEPT), "9" * 6000, '{"a":1}']
+)
 def test_a_kept_text_is_not_trusted(text):
     assert kept("scara.model", text) is None
 
@@ -164,7 +183,9 @@ def test_answers_are_written_as_one_types_them(value, text):
     assert written(decoded(value)) == text
 
 
-LEAVES = st.sampled_from([Symbol("x"), Symbol("y"), *map(Number, (1, -2, Fraction(1, 3), Fraction(-3, 2), 0.5, -0.25)), Constant("pi")])
+LEAVES = st.sampled_from(
+    [Symbol("x"), Symbol("y"), *map(Number, (1, -2, Fraction(1, 3), Fraction(-3, 2), 0.5, -0.25)), Constant("pi")]
+)
 EXPONENTS = st.sampled_from([Number(value) for value in (1, 2, -1, -2, Fraction(2, 1), 0.0)])
 ROOTS = st.sampled_from([Call("pow", (Symbol("x"), Number(Fraction(k, 2)))) for k in (1, -1, 3)])
 

@@ -6,14 +6,23 @@ import tracemalloc
 
 import pytest
 from answers import VARIANT
-from autograder.judge import Evidence, judge
-from autograder.questions import find
-from dhkit import wire
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from autograder.judge import Evidence, judge
+from autograder.questions import find
+from dhkit import wire
+
 BYTES = 64 << 20
-ASKED = ("planar_2r.table", "planar_2r.model", "planar_2r.T0E", "planar_2r.theta1", "planar_2r.postures", "planar_2r.inverse", "planar_2r.centre")
+ASKED = (
+    "planar_2r.table",
+    "planar_2r.model",
+    "planar_2r.T0E",
+    "planar_2r.theta1",
+    "planar_2r.postures",
+    "planar_2r.inverse",
+    "planar_2r.centre",
+)
 SIZES = {"planar_2r.table": (3, 5), "planar_2r.model": (2,), "planar_2r.T0E": (4, 4), "planar_2r.theta1": ()}
 
 
@@ -87,13 +96,23 @@ HEAVY = {
     "infinity": {"float": "inf"},
     "400 sines in a sum": {"call": ["add", *[{"call": ["sin", {"call": ["mul", T1, k]}]} for k in range(400)]]},
     "long product": {"call": ["mul", *[{"call": ["add", T1, k]} for k in range(400)]]},
-    "cancellation": {"call": ["add", {"call": ["mul", {"int": "1" + "0" * 40}, T1]}, {"call": ["mul", {"int": "-1" + "0" * 40}, T1]}, T1]},
+    "cancellation": {
+        "call": [
+            "add",
+            {"call": ["mul", {"int": "1" + "0" * 40}, T1]},
+            {"call": ["mul", {"int": "-1" + "0" * 40}, T1]},
+            T1,
+        ]
+    },
     "greatest of many": {"call": ["Max", *[{"call": ["atan2", T1, k]} for k in range(1, 400)]]},
 }
 WHOLE = {
     "all nodes one may send": [{"sym": "t1"}] * 9000,
     "a sum of all nodes": {"call": ["add", *[{"call": ["sin", T1]}] * 9000]},
-    "one entry takes all nodes": [{"call": ["add", *[{"call": ["tan", {"call": ["mul", k, T1]}]} for k in range(4000)]]}, 0],
+    "one entry takes all nodes": [
+        {"call": ["add", *[{"call": ["tan", {"call": ["mul", k, T1]}]} for k in range(4000)]]},
+        0,
+    ],
     "a hundred solutions": [[k / 7, k] for k in range(100)],
     "one solution a hundred times": [[0.1, 0.2]] * 100,
     "deep lists": nested(0, lambda node: [node], 2000),
@@ -112,7 +131,9 @@ def test_heavy_entries_get_a_verdict(id, name):
     assert found.share <= find(id).partial
 
 
-@pytest.mark.parametrize("id", ["planar_2r.table", "planar_2r.model", "planar_2r.postures", "planar_2r.inverse", "planar_2r.centre"])
+@pytest.mark.parametrize(
+    "id", ["planar_2r.table", "planar_2r.model", "planar_2r.postures", "planar_2r.inverse", "planar_2r.centre"]
+)
 @pytest.mark.parametrize("name", WHOLE)
 def test_odd_answers_get_a_verdict(id, name):
     found = bounded(id, WHOLE[name])

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import sympy
+
 from autograder.judge.decode import Malformed, decode_answer
 from autograder.judge.kinds import KINDS, Setting
 from dhkit.public import PublicQuestion
@@ -14,7 +15,9 @@ POINTS = {"t1": rng.uniform(-3, 3, 8), "t2": rng.uniform(-3, 3, 8)}
 
 
 def question(kind, **form):
-    return PublicQuestion(id="q", title="", kind=kind, expected="the form", symbols=form.pop("symbols", ("t1", "t2")), **form)
+    return PublicQuestion(
+        id="q", title="", kind=kind, expected="the form", symbols=form.pop("symbols", ("t1", "t2")), **form
+    )
 
 
 def read(form, answer):
@@ -47,7 +50,12 @@ def test_expressions(student, other, equal):
 
 def test_cancellation_does_not_fail_a_right_answer():
     big = sympy.Integer(10) ** 11
-    spoiled = sympy.Add(sympy.Mul(big, sympy.sin(t1) + 1, evaluate=False), sympy.Mul(-big, sympy.sin(t1), evaluate=False), -big + t1, evaluate=False)
+    spoiled = sympy.Add(
+        sympy.Mul(big, sympy.sin(t1) + 1, evaluate=False),
+        sympy.Mul(-big, sympy.sin(t1), evaluate=False),
+        -big + t1,
+        evaluate=False,
+    )
     assert compare(EXPRESSION, spoiled, t1).equal
     assert not compare(EXPRESSION, spoiled + sympy.Rational(1, 1000), t1).equal
 
@@ -67,7 +75,13 @@ def test_angles_are_equal_modulo_two_pi_only_where_asked():
 def test_natural_types_of_a_matrix():
     form = question("matrix", shape=(2, 2))
     rows = [[sympy.cos(t1), 0], [1, t2]]
-    for student in (rows, tuple(map(tuple, rows)), np.array(rows, dtype=object), sympy.Matrix(rows), sympy.ImmutableMatrix(rows)):
+    for student in (
+        rows,
+        tuple(map(tuple, rows)),
+        np.array(rows, dtype=object),
+        sympy.Matrix(rows),
+        sympy.ImmutableMatrix(rows),
+    ):
         assert compare(form, student, rows).equal
     wrong = compare(form, [[sympy.cos(t1), 0], [1, t1]], rows)
     assert not wrong.equal and wrong.share == 0.75 and "(2, 2)" in wrong.remarks[0]
@@ -105,7 +119,11 @@ def test_a_table_of_the_same_chain_is_right_within_the_freedoms_left():
 def test_what_is_no_chain_is_compared_cell_by_cell():
     form = question("dh_table", shape=(2, 5), joints=("t1", "t2"))
     rows = [[0, 0, 0, 0, t1], [0, 1, 0, 0, t2]]
-    for broken in ([rows[0], [0, 1, 0, 0, sympy.sin(t2)]], [rows[0], [0.5, 1, 0, 0, t2]], [rows[0], [0, 1, 0, ..., t2]]):
+    for broken in (
+        [rows[0], [0, 1, 0, 0, sympy.sin(t2)]],
+        [rows[0], [0.5, 1, 0, 0, t2]],
+        [rows[0], [0, 1, 0, ..., t2]],
+    ):
         found = compare(form, broken, rows)
         assert not found.equal and found.share == 0.5 and "row 2" in found.remarks[0]
 

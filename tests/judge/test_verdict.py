@@ -4,25 +4,31 @@ import numpy as np
 import pytest
 import sympy
 from answers import verdict
-from dhkit import public, variants, wire
-from dhkit.public import PublicQuestion
 
 from autograder.judge import Evidence, Family, Question, Variant, following, is_forgivable, judge, mistake
 from autograder.judge.decode import decode_answer
 from autograder.judge.kinds import KINDS, Setting
 from autograder.questions import find
+from dhkit import public, variants, wire
+from dhkit.public import PublicQuestion
 
 t1, t2, L1, L2, a2, a3, d2, t4 = sympy.symbols("t1 t2 L1 L2 a2 a3 d2 t4")
 ADA, BOB = Variant("ada"), Variant("bob")
 FORMS = {
     "arm.reach": PublicQuestion("arm.reach", "", "number", "one number"),
     "arm.both": PublicQuestion("arm.both", "", "joint_solutions", "a list of all (t1, t2)", joints=("t1", "t2")),
-    "arm.angles": PublicQuestion("arm.angles", "", "orientation", "three angles", shape=(3,), axes="zyx", names=("psi", "theta", "phi")),
+    "arm.angles": PublicQuestion(
+        "arm.angles", "", "orientation", "three angles", shape=(3,), axes="zyx", names=("psi", "theta", "phi")
+    ),
     "arm.fixed": PublicQuestion("arm.fixed", "", "orientation", "three angles", shape=(3,), axes="xyz", frames="fixed"),
     "arm.free": PublicQuestion("arm.free", "", "direction", "a direction", shape=(2,)),
     "arm.cloud": PublicQuestion("arm.cloud", "", "points", "a list of points", shape=(2,)),
     "arm.half": PublicQuestion(
-        "arm.half", "", "function", "a function", returns=PublicQuestion("arm.half()", "", "vector", "two numbers", shape=(2,))
+        "arm.half",
+        "",
+        "function",
+        "a function",
+        returns=PublicQuestion("arm.half()", "", "vector", "two numbers", shape=(2,)),
     ),
     "arm.T": PublicQuestion("arm.T", "", "transform", "a 4x4 matrix", shape=(4, 4)),
 }
@@ -33,7 +39,9 @@ def arm(monkeypatch):
     """An exercise of our own: nothing here depends on the questions of the course."""
     known = {**public.questions(), **FORMS}
     monkeypatch.setattr(public, "find", lambda id: known[id])
-    monkeypatch.setattr(variants, "variant_ranges", lambda exercise: {"L1": (0.1, 100.0, 0.1)} if exercise == "arm" else {})
+    monkeypatch.setattr(
+        variants, "variant_ranges", lambda exercise: {"L1": (0.1, 100.0, 0.1)} if exercise == "arm" else {}
+    )
 
 
 def evidence(id, answer, **whose):
@@ -49,7 +57,14 @@ def judged(question, answer, variant=ADA, earlier=None, **whose):
 REACH = Question(
     "arm.reach",
     reference=lambda variant: 2 * variant.numbers("arm")["L1"],
-    mistakes=(mistake("halved", 0.5, "**Half of it.** With your L1 = {L1} m the arm is longer; {this} stays.", lambda reach: reach / 2),),
+    mistakes=(
+        mistake(
+            "halved",
+            0.5,
+            "**Half of it.** With your L1 = {L1} m the arm is longer; {this} stays.",
+            lambda reach: reach / 2,
+        ),
+    ),
 )
 
 
@@ -67,7 +82,9 @@ def test_an_answer_for_the_id_that_was_typed_is_told_apart():
     assert "the id bob" in found.feedback
     assert judged(REACH, 2 * ADA.numbers("arm")["L1"], student="bob").note == "right"
     assert judged(REACH, 1.234, student="bob").note == "nothing_matched"
-    assert "nobody" in judged(REACH, 2 * Variant(variants.NOBODY).numbers("arm")["L1"], student=variants.NOBODY).feedback
+    assert (
+        "nobody" in judged(REACH, 2 * Variant(variants.NOBODY).numbers("arm")["L1"], student=variants.NOBODY).feedback
+    )
 
 
 @pytest.mark.parametrize("typed", [17, ["bob"], {"a": 1}, "x" * 5000])
@@ -108,7 +125,9 @@ def hand(rows):
     for _, a, alpha, d, theta in rows:
         for axis, shift, angle in ((0, a, alpha), (2, d, theta)):
             turn = sympy.Matrix(sympy.rot_axis1(-angle) if axis == 0 else sympy.rot_axis3(-angle))
-            result = result * turn.row_join(sympy.Matrix([shift if k == axis else 0 for k in range(3)])).col_join(sympy.Matrix([[0, 0, 0, 1]]))
+            result = result * turn.row_join(sympy.Matrix([shift if k == axis else 0 for k in range(3)])).col_join(
+                sympy.Matrix([[0, 0, 0, 1]])
+            )
     return result
 
 
@@ -207,7 +226,10 @@ def test_degrees_are_named_also_where_some_targets_have_no_solution():
 @pytest.mark.parametrize("rows", [[[0] * 5] * 4, [[0, 1, 2, 3, 4]] * 4])
 def test_two_tables_without_any_joint_are_compared_cell_by_cell(rows):
     form = public.find("scara.table")
-    student, other = (KINDS["dh_table"].read(form, decode_answer(wire.bundle(form.id, answer=wire.encode(each)), form.id)) for each in (rows, [[0, 7, 0, 0, 0]] * 4))
+    student, other = (
+        KINDS["dh_table"].read(form, decode_answer(wire.bundle(form.id, answer=wire.encode(each)), form.id))
+        for each in (rows, [[0, 7, 0, 0, 0]] * 4)
+    )
     assert not KINDS["dh_table"].compare(form, student, other, Setting(find(form.id).points)).equal
 
 
@@ -230,7 +252,10 @@ def test_at_gimbal_lock_every_triple_of_the_family_is_right():
 
 
 def test_fixed_axes_are_not_moving_ones():
-    moving, fixed = Question("arm.angles", reference=lambda _: [0.3, 0.5, -0.4]), Question("arm.fixed", reference=lambda _: [-0.4, 0.5, 0.3])
+    moving, fixed = (
+        Question("arm.angles", reference=lambda _: [0.3, 0.5, -0.4]),
+        Question("arm.fixed", reference=lambda _: [-0.4, 0.5, 0.3]),
+    )
     assert judged(moving, [0.3, 0.5, -0.4]).note == judged(fixed, [-0.4, 0.5, 0.3]).note == "right"
     assert judged(fixed, [0.3, 0.5, -0.4]).share == 0
 
@@ -266,8 +291,13 @@ def test_the_error_of_a_transform_is_told_in_degrees_and_metres():
     moved, turned = right.copy(), right.copy()
     moved[:3, 3] = 0.3, 0, 0.4
     turned[:3, :3] = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
-    assert "position is off by up to 0.5 m" in judged(question, moved).feedback and "the rotation is right" in judged(question, moved).feedback
-    assert "rotation is off by up to 90 deg" in judged(question, turned).feedback and judged(question, turned).share == 0.5
+    assert (
+        "position is off by up to 0.5 m" in judged(question, moved).feedback
+        and "the rotation is right" in judged(question, moved).feedback
+    )
+    assert (
+        "rotation is off by up to 90 deg" in judged(question, turned).feedback and judged(question, turned).share == 0.5
+    )
     bent = right.copy()
     bent[0, 1] = 0.2
     assert "no rotation" in judged(question, bent).feedback
@@ -281,7 +311,9 @@ def test_cancellation_never_fails_a_right_answer():
     x, y = sympy.symbols("x y")
     right = (x**2 + y**2 - L1**2 - L2**2) / (2 * L1 * L2)
     big = sympy.Integer(10) ** 18
-    spoiled = sympy.Add(sympy.Mul(big, x + 1, evaluate=False), sympy.Mul(-big, x, evaluate=False), -big, right, evaluate=False)
+    spoiled = sympy.Add(
+        sympy.Mul(big, x + 1, evaluate=False), sympy.Mul(-big, x, evaluate=False), -big, right, evaluate=False
+    )
     assert judged(question, spoiled).note == "right"
     assert judged(question, spoiled + sympy.Rational(1, 1000)).share < 1
 
@@ -302,7 +334,9 @@ HALF = Question(
 )
 
 
-@pytest.mark.parametrize("failed", [{"error": "division by zero"}, [{"float": "nan"}, 1.0], [{"float": "-inf"}, {"float": "nan"}]])
+@pytest.mark.parametrize(
+    "failed", [{"error": "division by zero"}, [{"float": "nan"}, 1.0], [{"float": "-inf"}, {"float": "nan"}]]
+)
 def test_a_value_that_is_not_finite_is_a_failure_like_an_exception(failed):
     probes = HALF.probes(ADA, 7)
     results = [[0.5, 1.0], failed, [1.5, 1.0]]

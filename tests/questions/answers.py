@@ -2,11 +2,11 @@
 
 import numpy as np
 import sympy
-from dhkit import wire
-from dhkit.public import DH_COLUMNS
 from scipy.spatial.transform import Rotation
 
 from autograder.judge import Evidence, Family, Variant, judge
+from dhkit import wire
+from dhkit.public import DH_COLUMNS
 
 VARIANT = Variant("ada")
 
@@ -122,7 +122,9 @@ def perturbed(question, rng):
         if not len(solutions):
             return rng.uniform(-1, 1, (1, len(question.public.joints)))
         changed = solutions.copy()
-        changed[rng.integers(len(solutions)), rng.integers(solutions.shape[1])] += rng.choice([-1, 1]) * rng.uniform(0.05, 1)
+        changed[rng.integers(len(solutions)), rng.integers(solutions.shape[1])] += rng.choice([-1, 1]) * rng.uniform(
+            0.05, 1
+        )
         family = isinstance(question.reference(VARIANT), Family)
         return None if family and question.misses(changed, VARIANT).max() < 1e-9 else changed
     form = entries(answer)
@@ -143,23 +145,31 @@ def still_right(question, reference, changed):
     kind, form = question.public.kind, question.public
     values = {name: float(value[0]) for name, value in question.points.items()}
     if kind in ("direction", "orientation", "dh_table"):
-        names = [name for name in {*form.symbols, *form.joints}]
+        names = list({*form.symbols, *form.joints})
         rng = np.random.default_rng(0)
         values |= {name: rng.uniform(-2, 2) for name in form.joints}
-        pair = [sympy.Matrix(each.tolist()).subs({name: values[name] for name in names}) for each in (reference, changed)]
+        pair = [
+            sympy.Matrix(each.tolist()).subs({name: values[name] for name in names}) for each in (reference, changed)
+        ]
         first, second = (np.array(each.evalf(), dtype=float) for each in pair)
     if kind == "direction":
-        return np.linalg.norm(np.cross(first.ravel(), second.ravel())) < 1e-9 if first.size == 3 else np.linalg.matrix_rank([first.ravel(), second.ravel()], 1e-9) < 2
+        return (
+            np.linalg.norm(np.cross(first.ravel(), second.ravel())) < 1e-9
+            if first.size == 3
+            else np.linalg.matrix_rank([first.ravel(), second.ravel()], 1e-9) < 2
+        )
     if kind == "orientation":
         axes = form.axes.upper() if form.frames == "moving" else form.axes.lower()
         turns = [Rotation.from_euler(axes, each.ravel()) for each in (first, second)]
         return (turns[0].inv() * turns[1]).magnitude() < 1e-7
     if kind == "dh_table":
         return np.allclose(hand(first), hand(second), atol=1e-9)
-    angle = kind == "expression" and question.angles or kind == "vector" and question.angles
+    angle = (kind == "expression" and question.angles) or (kind == "vector" and question.angles)
     if angle:
         gap = sympy.Matrix(np.ravel(np.array(changed - reference)).tolist()).subs(values)
-        return all(abs(np.remainder(float(each) + np.pi, 2 * np.pi) - np.pi) < 1e-9 for each in gap if not each.free_symbols)
+        return all(
+            abs(np.remainder(float(each) + np.pi, 2 * np.pi) - np.pi) < 1e-9 for each in gap if not each.free_symbols
+        )
     return False
 
 

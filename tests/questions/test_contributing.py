@@ -43,7 +43,9 @@ def copy(tmp_path_factory):
 
 def run(copy, *args):
     environment = {"PYTHONPATH": f"{copy}:{copy / 'course'}", "PATH": f"{Path(sys.executable).parent}:/usr/bin:/bin"}
-    return subprocess.run([sys.executable, *args], cwd=copy, env=environment, capture_output=True, text=True, check=True).stdout
+    return subprocess.run(
+        [sys.executable, *args], cwd=copy, env=environment, capture_output=True, text=True, check=True
+    ).stdout
 
 
 def test_it_takes_fewer_than_thirty_lines():
@@ -59,7 +61,14 @@ def test_the_question_is_released(copy):
     notebook = nbformat.read(source, as_version=4)
     kinds = {"planar_2r-elbow-answer": (ANSWER, False), "planar_2r-elbow": (CHECK, True)}
     for id, (code, graded) in kinds.items():
-        data = {"grade_id": id, "grade": graded, "solution": not graded, "locked": graded, "task": False, "schema_version": 3}
+        data = {
+            "grade_id": id,
+            "grade": graded,
+            "solution": not graded,
+            "locked": graded,
+            "task": False,
+            "schema_version": 3,
+        }
         cell = nbformat.v4.new_code_cell(code.strip(), metadata={"nbgrader": data | ({"points": 1} if graded else {})})
         notebook.cells.append(cell)
     nbformat.write(notebook, source)

@@ -25,7 +25,9 @@ def printed():
 
 def test_marked_cells_are_those_that_differ_from_the_table():
     *_, U3, U4, U5, _ = robots.RX90.table.recursion()
-    for matrix, right, marks in zip(printed(), (U5, U4, U3), (direct_models.WRONG_T56, direct_models.WRONG_U4, direct_models.WRONG_U3)):
+    for matrix, right, marks in zip(
+        printed(), (U5, U4, U3), (direct_models.WRONG_T56, direct_models.WRONG_U4, direct_models.WRONG_U3)
+    ):
         gap = np.array((matrix - right).subs(SOMEWHERE), dtype=float)
         assert (np.abs(gap) > 1e-9).astype(int).tolist() == marks
 

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 import sympy
 from answers import VARIANT, other_forms, perturbed, right, verdict
-from dhkit import public, wire
 
 from autograder.judge import Evidence, Family, judge
 from autograder.questions import exercises, find
+from dhkit import public, wire
 
 QUESTIONS = [question for questions in exercises().values() for question in questions]
 DATA = [question for question in QUESTIONS if question.public.kind != "function"]
@@ -117,7 +117,10 @@ def test_a_tree_is_well_formed(question):
     assert all(0 <= node.share < 1 and node.feedback.strip() for node in question.mistakes)
     assert all(node.steps for node in question.mistakes)
     assert len(question.mistakes) >= 2, "a response tree knows at least two misconceptions"
-    assert question.misses or "joint_solutions" not in (question.public.kind, getattr(question.public.returns, "kind", ""))
+    assert question.misses or "joint_solutions" not in (
+        question.public.kind,
+        getattr(question.public.returns, "kind", ""),
+    )
 
 
 @pytest.mark.parametrize("question", QUESTIONS, ids=ids(QUESTIONS))

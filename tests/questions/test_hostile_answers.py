@@ -3,10 +3,10 @@
 import random
 
 import pytest
-from dhkit import wire
 
 from autograder.judge import Evidence, Variant, judge
 from autograder.questions import exercises
+from dhkit import wire
 
 QUESTIONS = [question for questions in exercises().values() for question in questions]
 VARIANT = Variant("ada")
@@ -34,7 +34,10 @@ def answer(rng, form):
     if rng.random() < 0.05 or form.kind in ("number", "expression", "choice"):
         return scalar(rng, form.symbols)
     if form.kind == "joint_solutions":
-        return [[rng.choice([rng.uniform(-4, 4), scalar(rng, ())]) for _ in form.joints] for _ in range(rng.choice([0, 1, 2, 99]))]
+        return [
+            [rng.choice([rng.uniform(-4, 4), scalar(rng, ())]) for _ in form.joints]
+            for _ in range(rng.choice([0, 1, 2, 99]))
+        ]
     everywhere = scalar(rng, form.symbols)
     nested = lambda sizes: [nested(sizes[1:]) for _ in range(sizes[0])] if sizes else entry()  # noqa: E731
     entry = lambda: everywhere if rng.random() < 0.7 else scalar(rng, form.symbols)  # noqa: E731
@@ -55,7 +58,9 @@ def test_every_answer_gets_a_verdict(question):
         assert 0 <= found.share <= question.partial, evidence
 
 
-@pytest.mark.parametrize("question", [q for q in QUESTIONS if q.public.kind == "dh_table"], ids=lambda question: question.id)
+@pytest.mark.parametrize(
+    "question", [q for q in QUESTIONS if q.public.kind == "dh_table"], ids=lambda question: question.id
+)
 @pytest.mark.parametrize("entry", ODD, ids=str)
 def test_a_table_of_one_odd_entry_earns_nothing(question, entry):
     rows, columns = question.public.shape

@@ -5,11 +5,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from dhkit.public import variant_ranges
 
 from autograder.questions import find
 from autograder.questions.orientation import R, e, rotation_and_sign, wrist_angles
 from autograder.reference.orientation import EULER_SETS, euler_angles, rotation_angle_between, rpy_matrix
+from dhkit.public import variant_ranges
 
 
 @pytest.mark.parametrize("axes", EULER_SETS)

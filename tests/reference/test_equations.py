@@ -15,6 +15,7 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 # -- the equations as residuals: angles (..., u), coefficients (..., k) -----------
 
+
 def residual2(t, c):
     X, Y, Z = np.moveaxis(c, -1, 0)
     return (X * np.sin(t[..., 0]) + Y * np.cos(t[..., 0]) - Z)[..., None]
@@ -27,27 +28,37 @@ def residual3(t, c):
 def residual6(t, c):
     W, X, Y, Z1, Z2 = np.moveaxis(c, -1, 0)
     i, j = t[..., 0], t[..., 1]
-    return np.stack([W * np.sin(j) - X * np.cos(i) - Y * np.sin(i) - Z1,
-                     W * np.cos(j) - X * np.sin(i) + Y * np.cos(i) - Z2], axis=-1)
+    return np.stack(
+        [W * np.sin(j) - X * np.cos(i) - Y * np.sin(i) - Z1, W * np.cos(j) - X * np.sin(i) + Y * np.cos(i) - Z2],
+        axis=-1,
+    )
 
 
 def residual7(t, c):
     W1, W2, X, Y, Z1, Z2 = np.moveaxis(c, -1, 0)
     i, j = t[..., 0], t[..., 1]
-    return np.stack([W1 * np.cos(j) + W2 * np.sin(j) - X * np.cos(i) - Y * np.sin(i) - Z1,
-                     W1 * np.sin(j) - W2 * np.cos(j) - X * np.sin(i) + Y * np.cos(i) - Z2], axis=-1)
+    return np.stack(
+        [
+            W1 * np.cos(j) + W2 * np.sin(j) - X * np.cos(i) - Y * np.sin(i) - Z1,
+            W1 * np.sin(j) - W2 * np.cos(j) - X * np.sin(i) + Y * np.cos(i) - Z2,
+        ],
+        axis=-1,
+    )
 
 
 def residual8(t, c):
     X, Y, Z1, Z2 = np.moveaxis(c, -1, 0)
     i, ij = t[..., 0], t[..., 0] + t[..., 1]
-    return np.stack([X * np.cos(i) + Y * np.cos(ij) - Z1,
-                     X * np.sin(i) + Y * np.sin(ij) - Z2], axis=-1)
+    return np.stack([X * np.cos(i) + Y * np.cos(ij) - Z1, X * np.sin(i) + Y * np.sin(ij) - Z2], axis=-1)
 
 
-CASES = {"type2": (eq.type2, residual2, 1, 3), "type3": (eq.type3, residual3, 1, 6),
-         "type6": (eq.type6, residual6, 2, 5), "type7": (eq.type7, residual7, 2, 6),
-         "type8": (eq.type8, residual8, 2, 4)}
+CASES = {
+    "type2": (eq.type2, residual2, 1, 3),
+    "type3": (eq.type3, residual3, 1, 6),
+    "type6": (eq.type6, residual6, 2, 5),
+    "type7": (eq.type7, residual7, 2, 6),
+    "type8": (eq.type8, residual8, 2, 4),
+}
 
 
 def unpack(solve, c):
@@ -74,8 +85,10 @@ def multistart(residual, c, unknowns, per_axis):
     coefficients = c[:, None, :]
     for _ in range(60):
         f = residual(t, coefficients)
-        J = np.stack([(residual(t + h, coefficients) - residual(t - h, coefficients)) / 2e-6
-                      for h in 1e-6 * np.eye(unknowns)], axis=-1)
+        J = np.stack(
+            [(residual(t + h, coefficients) - residual(t - h, coefficients)) / 2e-6 for h in 1e-6 * np.eye(unknowns)],
+            axis=-1,
+        )
         step = (np.linalg.pinv(J) @ f[..., None])[..., 0]
         t -= np.clip(step, -0.5, 0.5)
     good = np.abs(residual(t, coefficients)).max(-1) < 1e-10
@@ -149,32 +162,61 @@ def test_type1():
     assert roots.values[0, 0] == 1.5 and roots.free.tolist() == ["", "r", ""]
 
 
-@pytest.mark.parametrize("coefficients, count, status", [
-    ((1, 0, 0.5), 2, eq.SOLVED), ((3, 4, 5), 1, eq.DOUBLE), ((3, 4, -5), 1, eq.DOUBLE),
-    ((3, 4, 5.001), 0, eq.NONE), ((3, 4, 4.999), 2, eq.SOLVED),
-    ((0, 0, 0), -1, eq.INFINITE), ((0, 0, 1), 0, eq.NONE)])
+@pytest.mark.parametrize(
+    "coefficients, count, status",
+    [
+        ((1, 0, 0.5), 2, eq.SOLVED),
+        ((3, 4, 5), 1, eq.DOUBLE),
+        ((3, 4, -5), 1, eq.DOUBLE),
+        ((3, 4, 5.001), 0, eq.NONE),
+        ((3, 4, 4.999), 2, eq.SOLVED),
+        ((0, 0, 0), -1, eq.INFINITE),
+        ((0, 0, 1), 0, eq.NONE),
+    ],
+)
 def test_type2_counts(coefficients, count, status):
     roots = eq.type2(*coefficients)
     assert roots.count == count and roots.status == status
 
 
-@pytest.mark.parametrize("coefficients, count, free", [
-    ((1, 0, 0.6, 0, 1, 0.8), 1, ""), ((1, 0, 0.6, 0, 1, 0.81), 0, ""),
-    ((1, 1, 0.5, 2, 2, 1.0), 2, ""), ((1, 1, 0.5, 2, 2, 1.1), 0, ""),
-    ((0, 0, 0, 2, 2, 1.0), 2, ""), ((0, 0, 0.1, 2, 2, 1.0), 0, ""),
-    ((3, 4, 5, 6, 8, 10), 1, ""), ((0, 0, 0, 0, 0, 0), -1, "theta"),
-    ((0, 0, 0, 0, 0, 1), 0, "")])
+@pytest.mark.parametrize(
+    "coefficients, count, free",
+    [
+        ((1, 0, 0.6, 0, 1, 0.8), 1, ""),
+        ((1, 0, 0.6, 0, 1, 0.81), 0, ""),
+        ((1, 1, 0.5, 2, 2, 1.0), 2, ""),
+        ((1, 1, 0.5, 2, 2, 1.1), 0, ""),
+        ((0, 0, 0, 2, 2, 1.0), 2, ""),
+        ((0, 0, 0.1, 2, 2, 1.0), 0, ""),
+        ((3, 4, 5, 6, 8, 10), 1, ""),
+        ((0, 0, 0, 0, 0, 0), -1, "theta"),
+        ((0, 0, 0, 0, 0, 1), 0, ""),
+    ],
+)
 def test_type3_counts(coefficients, count, free):
     roots = eq.type3(*coefficients)
     assert roots.count == count and roots.free == free
 
 
-@pytest.mark.parametrize("coefficients, count, free", [
-    ((1, 0.6, 1.0, 0.2), 2, ""), ((1, 0.6, 1.6, 0), 1, ""), ((1, 0.6, 0, -0.4), 1, ""),
-    ((1, 0.6, 1.61, 0), 0, ""), ((1, 0.6, 0.39, 0), 0, ""), ((1, 0.6, 0, 0), 0, ""),
-    ((1, 1, 0, 0), -1, "theta_i"), ((1, -1, 0, 0), -1, "theta_i"), ((1, 1, 2, 0), 1, ""),
-    ((1, 0, 0, 1), -1, "theta_j"), ((0, 1, 0, 1), -1, "theta_i (theta_i + theta_j defined)"),
-    ((1, 0, 0, 0.9), 0, ""), ((0, 0, 0, 0), -1, "theta_i and theta_j"), ((0, 0, 1, 0), 0, "")])
+@pytest.mark.parametrize(
+    "coefficients, count, free",
+    [
+        ((1, 0.6, 1.0, 0.2), 2, ""),
+        ((1, 0.6, 1.6, 0), 1, ""),
+        ((1, 0.6, 0, -0.4), 1, ""),
+        ((1, 0.6, 1.61, 0), 0, ""),
+        ((1, 0.6, 0.39, 0), 0, ""),
+        ((1, 0.6, 0, 0), 0, ""),
+        ((1, 1, 0, 0), -1, "theta_i"),
+        ((1, -1, 0, 0), -1, "theta_i"),
+        ((1, 1, 2, 0), 1, ""),
+        ((1, 0, 0, 1), -1, "theta_j"),
+        ((0, 1, 0, 1), -1, "theta_i (theta_i + theta_j defined)"),
+        ((1, 0, 0, 0.9), 0, ""),
+        ((0, 0, 0, 0), -1, "theta_i and theta_j"),
+        ((0, 0, 1, 0), 0, ""),
+    ],
+)
 def test_type8_counts(coefficients, count, free):
     roots = eq.type8(*coefficients)
     assert roots.count == count and roots.free == free
@@ -191,8 +233,7 @@ def test_type8_keeps_its_accuracy_at_the_limits():
         rho = limit + side * distance
         roots = eq.type8(1.0, 0.6, rho, 0.0)
         assert (roots.count == 2).all()
-        error = residual8(roots.values, np.stack([np.ones(4), np.full(4, 0.6), rho, np.zeros(4)], -1)
-                          [:, None])
+        error = residual8(roots.values, np.stack([np.ones(4), np.full(4, 0.6), rho, np.zeros(4)], -1)[:, None])
         assert np.abs(error).max() < 1e-14
         assert (eq.type8(1.0, 0.6, limit - side * distance, 0.0).count == 0).all()
         assert eq.type8(1.0, 0.6, limit + 1e-15, 0.0).count == 1
@@ -208,8 +249,10 @@ def test_type7_without_arm_leaves_theta_j_free():
 
 def test_the_s600_vector():
     """Adept s600: d2 = 0.325, d3 = 0.275, (t1, t2) = (30, 50) degrees."""
-    x, y = 0.325 * np.cos(np.pi / 6) + 0.275 * np.cos(np.radians(80)), (
-        0.325 * np.sin(np.pi / 6) + 0.275 * np.sin(np.radians(80)))
+    x, y = (
+        0.325 * np.cos(np.pi / 6) + 0.275 * np.cos(np.radians(80)),
+        (0.325 * np.sin(np.pi / 6) + 0.275 * np.sin(np.radians(80))),
+    )
     assert np.allclose([x, y], [0.329212, 0.433322], atol=1e-6)
     found = np.degrees(eq.type8(0.325, 0.275, x, y).listed())
     assert np.allclose(found, [[30, 50], [75.5493, -50]], atol=1e-4)

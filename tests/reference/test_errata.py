@@ -16,8 +16,9 @@ ALL = errata.ERRORS + errata.AMBIGUITIES
 
 def with_roles(check, right):
     """The same check with other forms claimed to be right."""
-    return replace(check, readings=tuple(replace(reading, right=claim)
-                                         for reading, claim in zip(check.readings, right)))
+    return replace(
+        check, readings=tuple(replace(reading, right=claim) for reading, claim in zip(check.readings, right))
+    )
 
 
 @pytest.mark.parametrize("erratum", ALL, ids=lambda e: e.id)
@@ -46,11 +47,19 @@ def test_no_form_can_be_claimed_the_other_way(erratum):
 
 def test_they_are_all_there():
     assert Counter(e.document for e in errata.ERRORS) == {
-        "MECA 953 slides": 14, "EPFL slides": 4, "DH-m slides (Romanian)": 10,
-        "pen robot sheet": 2, "Adept s600 tutorial": 4}
+        "MECA 953 slides": 14,
+        "EPFL slides": 4,
+        "DH-m slides (Romanian)": 10,
+        "pen robot sheet": 2,
+        "Adept s600 tutorial": 4,
+    }
     assert Counter(e.document for e in errata.AMBIGUITIES) == {
-        "MECA 953 slides": 11, "EPFL slides": 9, "DH-m slides (Romanian)": 2,
-        "pen robot sheet": 2, "Adept s600 tutorial": 3}
+        "MECA 953 slides": 11,
+        "EPFL slides": 9,
+        "DH-m slides (Romanian)": 2,
+        "pen robot sheet": 2,
+        "Adept s600 tutorial": 3,
+    }
     assert len({e.id for e in ALL}) == 61
 
 

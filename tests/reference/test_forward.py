@@ -60,7 +60,9 @@ def test_shapes_and_batches():
     assert robot.forward(np.empty((0, 6))).shape == (0, 4, 4)
     frames = robot.table.chain.frames(q)
     assert frames.shape == (5, 3, 6, 4, 4)
-    np.testing.assert_allclose(frames[..., 5, :, :] @ np.array(robot.table.at(robot.table.values).tool, float), poses, atol=1e-14)
+    np.testing.assert_allclose(
+        frames[..., 5, :, :] @ np.array(robot.table.at(robot.table.values).tool, float), poses, atol=1e-14
+    )
 
 
 def test_blocks_of_a_large_batch_agree_with_single_poses():
@@ -133,9 +135,7 @@ def test_epfl_arm_as_rotations_about_centres(h):
         product = product * centre
     reference = sp.eye(4)
     reference[0, 3], reference[2, 3] = 0.2, 0.5 + 0.6 + h
-    np.testing.assert_allclose(
-        np.array(product * reference, dtype=float), robots.epfl_arm(h=h).forward(q), atol=1e-14
-    )
+    np.testing.assert_allclose(np.array(product * reference, dtype=float), robots.epfl_arm(h=h).forward(q), atol=1e-14)
 
 
 def test_printed_centres():

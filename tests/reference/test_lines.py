@@ -47,7 +47,9 @@ def test_axes_of_a_chain_give_back_its_links(seed):
     frames = [np.eye(4)]
     for a, alpha, d, theta in rows:
         c, s, ca, sa = np.cos(theta), np.sin(theta), np.cos(alpha), np.sin(alpha)
-        frames.append(frames[-1] @ [[c, -s, 0, a], [s * ca, c * ca, -sa, -sa * d], [s * sa, c * sa, ca, ca * d], [0, 0, 0, 1]])
+        frames.append(
+            frames[-1] @ [[c, -s, 0, a], [s * ca, c * ca, -sa, -sa * d], [s * sa, c * sa, ca, ca * d], [0, 0, 0, 1]]
+        )
     axes = [(frame[:3, 3], frame[:3, 2]) for frame in frames]
     for row, frame, first, second in zip(rows, frames, axes, axes[1:]):
         assert link(first, second) == pytest.approx(tuple(row[:2]))

@@ -38,8 +38,10 @@ def test_there_are_twelve_sets():
 @pytest.mark.parametrize("axes, intrinsic", READINGS)
 def test_matrix_agrees_with_scipy(axes, intrinsic):
     angles = np.random.default_rng(1).uniform(-np.pi, np.pi, (200, 3))
-    assert np.abs(ori.euler_matrix(angles, axes, intrinsic=intrinsic)
-                  - scipy_matrix(angles, axes, intrinsic)).max() < 1e-14
+    assert (
+        np.abs(ori.euler_matrix(angles, axes, intrinsic=intrinsic) - scipy_matrix(angles, axes, intrinsic)).max()
+        < 1e-14
+    )
 
 
 @pytest.mark.parametrize("axes, intrinsic", READINGS)
@@ -58,6 +60,7 @@ def test_both_solutions_are_right_distinct_and_all(axes, intrinsic):
 def test_no_third_solution_by_numeric_multistart():
     """Newton from a grid of starts finds nothing outside the two triples."""
     from scipy.optimize import least_squares
+
     for axes in ("zxz", "xzy"):
         R = random_rotations(3, 1)[0]
         found = ori.euler_angles(R, axes, intrinsic=True).angles
@@ -169,18 +172,19 @@ def test_rpy_of_the_documents_vector():
 
 def test_wrists_of_the_documents_have_the_printed_products():
     p, n, r = 0.4, 1.1, -0.7
-    Rx, Rz, Ry = (lambda t: ori.rotation("x", t)), (lambda t: ori.rotation("z", t)), (
-        lambda t: ori.rotation("y", t))
-    assert np.allclose(ori.euler_matrix([p, n, r], ori.EULER_WRIST, intrinsic=True),
-                       Rz(p) @ Rx(n) @ Rz(r))
-    assert np.allclose(ori.euler_matrix([p, n, r], ori.CARDAN_WRIST, intrinsic=True),
-                       Rx(p) @ Rz(n) @ Ry(r))
+    Rx, Rz, Ry = (lambda t: ori.rotation("x", t)), (lambda t: ori.rotation("z", t)), (lambda t: ori.rotation("y", t))
+    assert np.allclose(ori.euler_matrix([p, n, r], ori.EULER_WRIST, intrinsic=True), Rz(p) @ Rx(n) @ Rz(r))
+    assert np.allclose(ori.euler_matrix([p, n, r], ori.CARDAN_WRIST, intrinsic=True), Rx(p) @ Rz(n) @ Ry(r))
 
 
 def test_wrong_matrices_are_refused():
     reflection = np.diag([1.0, 1.0, -1.0])
-    for bad, message in [(reflection, "reflection"), (2 * np.eye(3), "orthonormal"),
-                         (np.full((3, 3), np.nan), "NaN"), (np.eye(4), "shape")]:
+    for bad, message in [
+        (reflection, "reflection"),
+        (2 * np.eye(3), "orthonormal"),
+        (np.full((3, 3), np.nan), "NaN"),
+        (np.eye(4), "shape"),
+    ]:
         for convert in (ori.quaternion, ori.axis_angle, ori.rpy):
             with pytest.raises(ValueError, match=message):
                 convert(bad)
@@ -191,6 +195,7 @@ def test_wrong_matrices_are_refused():
 
 
 # -- quaternions, axis and angle -------------------------------------------------
+
 
 def hard_rotations():
     rng = np.random.default_rng(7)

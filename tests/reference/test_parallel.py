@@ -30,8 +30,7 @@ def leg_lengths(robot, pose):
     """Distances written out point by point, apart from the library's vectorised form."""
     x, y, phi = pose
     R = np.array([[np.cos(phi), -np.sin(phi)], [np.sin(phi), np.cos(phi)]])
-    return np.array([np.linalg.norm(np.array([x, y]) + R @ b - a)
-                     for a, b in zip(robot.base, robot.platform)])
+    return np.array([np.linalg.norm(np.array([x, y]) + R @ b - a) for a, b in zip(robot.base, robot.platform)])
 
 
 def pose_gap(found, poses):
@@ -43,18 +42,16 @@ def pose_gap(found, poses):
 def third_leg_error(robot, lengths, phi, side):
     """Error of leg 3 with P on the circles of legs 1 and 2; NaN-free, and where it exists."""
     c, s = np.cos(phi)[:, None], np.sin(phi)[:, None]
-    turned = [np.concatenate([c * b[0] - s * b[1], s * b[0] + c * b[1]], axis=1)
-              for b in robot.platform]
+    turned = [np.concatenate([c * b[0] - s * b[1], s * b[0] + c * b[1]], axis=1) for b in robot.platform]
     centre1, centre2, centre3 = (a - t for a, t in zip(robot.base, turned))
     between = centre2 - centre1
     distance = np.linalg.norm(between, axis=1)
-    along = (distance**2 + lengths[0]**2 - lengths[1]**2) / (2 * distance)
-    height = lengths[0]**2 - along**2
+    along = (distance**2 + lengths[0] ** 2 - lengths[1] ** 2) / (2 * distance)
+    height = lengths[0] ** 2 - along**2
     real = height >= 0
     unit = between / distance[:, None]
     normal = np.column_stack([-unit[:, 1], unit[:, 0]])
-    P = (centre1 + along[:, None] * unit
-         + side * np.sqrt(np.maximum(height, 0))[:, None] * normal)
+    P = centre1 + along[:, None] * unit + side * np.sqrt(np.maximum(height, 0))[:, None] * normal
     return np.linalg.norm(P - centre3, axis=1) - lengths[2], real, P
 
 
@@ -65,8 +62,9 @@ def modes_by_circles(robot, lengths, n=20000):
         error, real, _ = third_leg_error(robot, lengths, phi, side)
         crossing = np.flatnonzero(real[:-1] & real[1:] & (error[:-1] * error[1:] < 0))
         for k in crossing:
-            root = brentq(lambda t: third_leg_error(robot, lengths, np.array([t]), side)[0][0],
-                          phi[k], phi[k + 1], xtol=1e-13)
+            root = brentq(
+                lambda t: third_leg_error(robot, lengths, np.array([t]), side)[0][0], phi[k], phi[k + 1], xtol=1e-13
+            )
             P = third_leg_error(robot, lengths, np.array([root]), side)[2][0]
             modes.append([*P, root])
     return np.array(modes).reshape(-1, 3)
@@ -153,8 +151,9 @@ def test_the_completeness_test_sees_enough_cases():
     for seed in range(8):
         robot, rng = random_robot(seed)
         poses = random_poses(rng, 6)
-        counts += [int(robot.direct(robot.inverse(p)).count) for p in poses
-                   if ends_are_clean(robot, leg_lengths(robot, p))]
+        counts += [
+            int(robot.direct(robot.inverse(p)).count) for p in poses if ends_are_clean(robot, leg_lengths(robot, p))
+        ]
     assert len(counts) > 40 and {2, 4, 6} <= set(counts) <= {2, 4, 6}
 
 
@@ -231,8 +230,7 @@ def test_batch_shapes_and_bad_input():
     assert robot.direct(np.ones((2, 4, 3))).values.shape == (2, 4, 6, 3)
     assert robot.direct(np.empty((0, 3))).values.shape == (0, 6, 3)
     assert robot.direct([1.0, 1.0, 1.0]).exists.shape == (6,)
-    for bad, message in [([1, 1], "three leg lengths"), ([1, 1, -1], "not negative"),
-                         ([1, 1, np.nan], "finite")]:
+    for bad, message in [([1, 1], "three leg lengths"), ([1, 1, -1], "not negative"), ([1, 1, np.nan], "finite")]:
         with pytest.raises(ValueError, match=message):
             robot.direct(bad)
     with pytest.raises(ValueError, match="a pose is"):
@@ -247,12 +245,14 @@ def test_batch_shapes_and_bad_input():
 
 # -- 3-RRR: the counter-example ---------------------------------------------------
 
+
 def leg_tips(robot, postures):
     """Ends of the two-bar legs: postures (..., 6) -> (..., 3, 2)."""
     drive, elbow = postures[..., 0::2], postures[..., 1::2]
     l1, l2 = robot.proximal, robot.distal
-    return robot.base + np.stack([l1 * np.cos(drive) + l2 * np.cos(drive + elbow),
-                                  l1 * np.sin(drive) + l2 * np.sin(drive + elbow)], axis=-1)
+    return robot.base + np.stack(
+        [l1 * np.cos(drive) + l2 * np.cos(drive + elbow), l1 * np.sin(drive) + l2 * np.sin(drive + elbow)], axis=-1
+    )
 
 
 def platform_points(robot, poses):
@@ -265,8 +265,7 @@ def platform_points(robot, poses):
 def test_3rrr_has_eight_inverse_solutions():
     robot = ThreeRRR()
     rng = np.random.default_rng(20)
-    poses = np.column_stack([rng.uniform(0.3, 0.6, 500), rng.uniform(0.2, 0.9, 500),
-                             rng.uniform(-0.5, 0.5, 500)])
+    poses = np.column_stack([rng.uniform(0.3, 0.6, 500), rng.uniform(0.2, 0.9, 500), rng.uniform(-0.5, 0.5, 500)])
     found = robot.inverse(poses)
     assert set(found.count.tolist()) == {0, 8} and (found.count == 8).mean() > 0.5
     gap = np.abs(leg_tips(robot, found.values) - platform_points(robot, poses)[:, None]).max((-1, -2))
@@ -284,12 +283,16 @@ def test_3rrr_order_limits_and_refusals():
 
     out_of_reach = robot.inverse([0.45, 1.5, 0.1])
     assert out_of_reach.status == NONE and out_of_reach.count == 0
-    one_stretched = ThreeRRR(base=[(0, 0), (1, 0), (1, 0.5)],
-                             platform=[(0, 0), (0.5, 0.1), (0.5, 0.6)]).inverse([0.95, 0.0, 0.0])
+    one_stretched = ThreeRRR(base=[(0, 0), (1, 0), (1, 0.5)], platform=[(0, 0), (0.5, 0.1), (0.5, 0.6)]).inverse(
+        [0.95, 0.0, 0.0]
+    )
     assert one_stretched.status == DOUBLE and one_stretched.count == 4
-    folded = ThreeRRR(proximal=[0.5] * 3, distal=[0.5, 0.4, 0.4],
-                      base=[(0, 0), (1, 0), (0.4, 0.9)],
-                      platform=[(0, 0), (0.4, 0.1), (0.1, 0.3)]).inverse([0.0, 0.0, 0.0])
+    folded = ThreeRRR(
+        proximal=[0.5] * 3,
+        distal=[0.5, 0.4, 0.4],
+        base=[(0, 0), (1, 0), (0.4, 0.9)],
+        platform=[(0, 0), (0.4, 0.1), (0.1, 0.3)],
+    ).inverse([0.0, 0.0, 0.0])
     assert folded.status == INFINITE and folded.count == -1
     with pytest.raises(ValueError, match="three positive lengths"):
         ThreeRRR(proximal=[0.5, 0.5, 0.0])

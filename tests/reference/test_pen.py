@@ -36,8 +36,8 @@ def test_readings_of_the_remark_shift_the_sum_only(reading, shown):
     """All readings have the printed robot's surface and count; theta2 + theta3 is shifted."""
     q = np.random.default_rng(0).uniform(-np.pi, np.pi, (50, 3))
     for point in robots.PEN.forward(q)[:, :3, 3]:
-        (t1, phi), = robots.PEN.inverse.effective(point)
-        (its_t1, total), = READINGS[reading].inverse.effective(point)
+        ((t1, phi),) = robots.PEN.inverse.effective(point)
+        ((its_t1, total),) = READINGS[reading].inverse.effective(point)
         assert np.angle(np.exp(1j * (its_t1 - t1))) == pytest.approx(0, abs=1e-9)
         assert np.angle(np.exp(1j * (total - shown(phi, t1)))) == pytest.approx(0, abs=1e-9)
 

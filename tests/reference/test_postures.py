@@ -92,7 +92,7 @@ def test_kr210_has_four_postures_when_the_back_is_out_of_reach():
 
 
 def test_task_coordinates_and_poses_say_the_same():
-    for robot, task, q in [
+    for robot, task, _q in [
         (robots.PLANAR_3R, [0.6, 0.3, 0.4], None),
         (robots.SCARA, [0.3, 0.4, -0.1, 1.0], None),
         (robots.SCARA_EPFL, [0.3, 0.4, 0.1, 1.0], None),
@@ -288,9 +288,7 @@ def test_joint_limits_filter():
     assert allowed.valid.any(axis=1).all()
     chosen = allowed.q[allowed.valid]
     assert (chosen >= limits[:, 0] - 1e-8).all() and (chosen <= limits[:, 1] + 1e-8).all()
-    np.testing.assert_allclose(
-        robot.forward(chosen), np.repeat(T, allowed.count, axis=0), atol=1e-9
-    )
+    np.testing.assert_allclose(robot.forward(chosen), np.repeat(T, allowed.count, axis=0), atol=1e-9)
     for i in range(len(T)):
         turns = [[2 * np.pi * k for k in (-1, 0, 1)] if j in (3, 5) else [0] for j in range(6)]
         shifts = np.stack(np.meshgrid(*turns), -1).reshape(-1, 6)

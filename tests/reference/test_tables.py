@@ -61,7 +61,9 @@ def test_recursion_is_the_running_product_from_the_tip():
     values = {s: 0.3 + 0.1 * k for k, s in enumerate(sorted(below[0].free_symbols, key=str))}
     for transform, lower, upper in zip(table.transforms(), below[1:], below):
         np.testing.assert_allclose(
-            np.array((transform * lower).subs(values), dtype=float), np.array(upper.subs(values), dtype=float), atol=1e-15
+            np.array((transform * lower).subs(values), dtype=float),
+            np.array(upper.subs(values), dtype=float),
+            atol=1e-15,
         )
 
 
@@ -99,7 +101,10 @@ def test_classic_rows_of_the_s600_tutorial():
 
 
 def test_joints_offsets_and_coupling():
-    table = DHTable([(0, 0, 0, 0, t1), (1, 1, 0, -sp.Symbol("d2") + 0.5, 0), (0, 0, 0, 0, t2 - t1)], joints=(t1, sp.Symbol("d2"), t2))
+    table = DHTable(
+        [(0, 0, 0, 0, t1), (1, 1, 0, -sp.Symbol("d2") + 0.5, 0), (0, 0, 0, 0, t2 - t1)],
+        joints=(t1, sp.Symbol("d2"), t2),
+    )
     np.testing.assert_allclose(table.forward([0.3, 0.2, 0.7])[:3, 3], [np.cos(0.3), np.sin(0.3), 0.3])
     heading = table.forward([0.3, 0.2, 0.7])[:2, 0]
     np.testing.assert_allclose(heading, [np.cos(0.7), np.sin(0.7)])

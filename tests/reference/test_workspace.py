@@ -24,8 +24,9 @@ def image_points(arm, n):
     """Forward points of a fine grid, by the formula of the slides and nothing else."""
     t1 = np.linspace(*arm.q1, n)[:, None]
     t2 = np.linspace(*arm.q2, n)[None, :]
-    return np.stack([arm.l1 * np.cos(t1) + arm.l2 * np.cos(t1 + t2),
-                     arm.l1 * np.sin(t1) + arm.l2 * np.sin(t1 + t2)], axis=-1).reshape(-1, 2)
+    return np.stack(
+        [arm.l1 * np.cos(t1) + arm.l2 * np.cos(t1 + t2), arm.l1 * np.sin(t1) + arm.l2 * np.sin(t1 + t2)], axis=-1
+    ).reshape(-1, 2)
 
 
 def measured_area(arm, n=500):
@@ -49,11 +50,16 @@ def measured_area(arm, n=500):
 
 def random_arms(seed, n):
     rng = np.random.default_rng(seed)
-    return [RRArm(*rng.uniform(0.3, 1, 2), q1=tuple(np.sort(rng.uniform(-4, 4, 2))),
-                  q2=tuple(np.sort(rng.uniform(-4, 4, 2)))) for _ in range(n)]
+    return [
+        RRArm(
+            *rng.uniform(0.3, 1, 2), q1=tuple(np.sort(rng.uniform(-4, 4, 2))), q2=tuple(np.sort(rng.uniform(-4, 4, 2)))
+        )
+        for _ in range(n)
+    ]
 
 
 # -- clouds -----------------------------------------------------------------------
+
 
 def test_grid_is_the_image_of_every_pair():
     """p_ij belongs to the i-th value of joint 1 and the j-th of joint 2 (DH-m slides)."""
@@ -141,8 +147,7 @@ def test_raster_boundary_of_a_ring_has_both_circles():
 
 def test_bad_requests_are_refused():
     rng = np.random.default_rng(0)
-    for bad, message in [([(0, 1, 2)], "pairs"), ([(1, 0)], "above its upper"),
-                         ([(0, np.inf)], "finite")]:
+    for bad, message in [([(0, 1, 2)], "pairs"), ([(1, 0)], "above its upper"), ([(0, np.inf)], "finite")]:
         with pytest.raises(ValueError, match=message):
             ws.sample(elbow_arm, bad, 10, rng)
     with pytest.raises(ValueError, match="at least one value"):
@@ -156,6 +161,7 @@ def test_bad_requests_are_refused():
 
 
 # -- the RR arm, exact ---------------------------------------------------------------
+
 
 @pytest.mark.parametrize("arm", random_arms(4, 40), ids=lambda arm: "")
 def test_area_and_radii_agree_with_integration(arm):
@@ -209,17 +215,17 @@ def test_overlapping_sheets_are_refused_or_counted_once(q2):
 def test_full_turn_gives_the_ring():
     for l1, l2 in [(1.0, 0.6), (0.6, 1.0), (0.5, 0.5)]:
         arm = RRArm(l1, l2)
-        assert np.isclose(arm.area(), np.pi * ((l1 + l2)**2 - (l1 - l2)**2))
+        assert np.isclose(arm.area(), np.pi * ((l1 + l2) ** 2 - (l1 - l2) ** 2))
         assert np.allclose(arm.radii(), (abs(l1 - l2), l1 + l2))
         inner, outer = RRArm(l1, l2, q2=(0.4, 1.2)).radii()
         assert np.isclose(RRArm(l1, l2, q2=(0.4, 1.2)).area(), np.pi * (outer**2 - inner**2))
-        assert np.isclose(RRArm(l1, l2, q1=(-9, 9), q2=(0.4, 1.2)).area(),
-                          np.pi * (outer**2 - inner**2)), "a wider range is still one turn"
+        assert np.isclose(RRArm(l1, l2, q1=(-9, 9), q2=(0.4, 1.2)).area(), np.pi * (outer**2 - inner**2)), (
+            "a wider range is still one turn"
+        )
 
 
 def test_radii_follow_the_range_of_the_elbow():
-    assert np.allclose(RRArm(1.0, 0.6, q2=(0.3, 3.0)).radii(),
-                       np.sqrt(1.36 + 1.2 * np.cos([3.0, 0.3])))
+    assert np.allclose(RRArm(1.0, 0.6, q2=(0.3, 3.0)).radii(), np.sqrt(1.36 + 1.2 * np.cos([3.0, 0.3])))
     assert np.isclose(RRArm(1.0, 0.6, q2=(-0.2, 1.0)).radii()[1], 1.6)
     assert np.isclose(RRArm(1.0, 0.6, q2=(3.0, 3.5)).radii()[0], 0.4)
     assert np.isclose(RRArm(1.0, 0.6, q2=(6.0, 6.5)).radii()[1], 1.6), "0 modulo a turn"
@@ -244,8 +250,11 @@ def test_a_half_line_and_a_point_have_no_area():
 
 
 def test_bad_arms_are_refused():
-    for arguments, message in [((0, 1), "l1 is a positive"), ((1, -1), "l2 is a positive"),
-                               ((1, 1, (1, 0)), "q1 is a range"),
-                               ((1, 1, FULL, (0, np.nan)), "q2 is a range")]:
+    for arguments, message in [
+        ((0, 1), "l1 is a positive"),
+        ((1, -1), "l2 is a positive"),
+        ((1, 1, (1, 0)), "q1 is a range"),
+        ((1, 1, FULL, (0, np.nan)), "q2 is a range"),
+    ]:
         with pytest.raises(ValueError, match=message):
             RRArm(*arguments)

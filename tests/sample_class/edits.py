@@ -46,7 +46,9 @@ def released(nb: Notebook) -> Notebook:
 def signed(nb: Notebook, student: str) -> Notebook:
     """The notebook with the student's id typed in, where the exercise asks for it."""
     blank = "student = ..."
-    return _each_source(nb, lambda line: [line.replace(blank, f"student = {student!r}", 1) if line.startswith(blank) else line])
+    return _each_source(
+        nb, lambda line: [line.replace(blank, f"student = {student!r}", 1) if line.startswith(blank) else line]
+    )
 
 
 def answer(nb: Notebook, source: Notebook, cell: str, code: str) -> Notebook:
@@ -138,7 +140,9 @@ def set_metadata(nb: Notebook, cell: str, **values) -> Notebook:
     nb = deepcopy(nb)
     found = nb["cells"][position(nb, cell)]["metadata"]
     for key, value in values.items():
-        found[key] = {**found.get(key, {}), **value} if isinstance(value, dict) and isinstance(found.get(key), dict) else value
+        found[key] = (
+            {**found.get(key, {}), **value} if isinstance(value, dict) and isinstance(found.get(key), dict) else value
+        )
     return nb
 
 

@@ -76,7 +76,9 @@ def test_the_class_is_written_twice_the_same_and_keeps_grades(tmp_path):
     shutil.rmtree(root / "submitted" / "right")
     (root / "submitted" / "stranger").mkdir()
     write_class(root)
-    assert {path: path.read_bytes() for path in root.rglob("*") if path.is_file()} == first | {root / "gradebook.db": b"grades"}
+    assert {path: path.read_bytes() for path in root.rglob("*") if path.is_file()} == first | {
+        root / "gradebook.db": b"grades"
+    }
     assert not (root / "submitted" / "stranger").exists()
 
 

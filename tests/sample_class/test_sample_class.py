@@ -10,12 +10,12 @@ import tempfile
 from pathlib import Path
 
 import pytest
-from dhkit.public import questions as public_questions
 from expected import HERE, submissions
 from write import REPOSITORY, write_class
 
 from autograder.questions import exercises
 from autograder.sandbox import available
+from dhkit.public import questions as public_questions
 
 pytestmark = pytest.mark.xdist_group("sample_class")
 
@@ -131,7 +131,11 @@ def test_nothing_is_written_outside_the_work_folders(graded, course):
 
 def test_work_folders_are_gone(graded):
     # os.walk passes over what other tests remove meanwhile.
-    left = [folder for folder, _, files in os.walk(tempfile.gettempdir()) if Path(folder).name == "work" and "notes.txt" in files]
+    left = [
+        folder
+        for folder, _, files in os.walk(tempfile.gettempdir())
+        if Path(folder).name == "work" and "notes.txt" in files
+    ]
     assert left == []
 
 
@@ -141,7 +145,12 @@ def test_work_folders_are_gone(graded):
 def test_every_named_mistake_is_made_by_somebody():
     notes = [(f"{one.exercise}.{question}", note) for one in submissions() for question, note in one.notes.items()]
     made = {(question, single) for question, note in notes for single in note.split("+")}
-    trees = {(question.id, node.note) for questions in exercises().values() for question in questions for node in question.mistakes}
+    trees = {
+        (question.id, node.note)
+        for questions in exercises().values()
+        for question in questions
+        for node in question.mistakes
+    }
     assert trees - made == set()
 
 
@@ -195,7 +204,9 @@ def stock(graded, ungraded):
 def test_the_part_for_stock_nbgrader_has_every_outcome():
     notes = {note for one in submissions() if one.stock for note in ("right", *one.notes.values())}
     assert notes >= FRAME_NOTES | {"sign_of_d2"}
-    assert any(one.exercise not in ("scara", "planar_2r") for one in submissions() if one.stock), "one with numbers of one's own"
+    assert any(one.exercise not in ("scara", "planar_2r") for one in submissions() if one.stock), (
+        "one with numbers of one's own"
+    )
 
 
 @pytest.mark.parametrize("query", [GRADES, COMMENTS], ids=["grades", "comments"])
@@ -209,6 +220,9 @@ def test_stock_nbgrader_keeps_the_same_gradebook(query, stock, course):
 def test_stock_nbgrader_shows_the_same_feedback(stock, course):
     for one in CLASS:
         if one.stock:
-            pair = [json.loads((root / f"autograded/{one.student}/{one.exercise}/{one.exercise}.ipynb").read_text()) for root in (course, stock)]
+            pair = [
+                json.loads((root / f"autograded/{one.student}/{one.exercise}/{one.exercise}.ipynb").read_text())
+                for root in (course, stock)
+            ]
             judged = [[cell["outputs"] for cell in nb["cells"] if "autograder" in cell["metadata"]] for nb in pair]
             assert judged[0] == judged[1]

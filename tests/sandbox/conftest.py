@@ -47,9 +47,7 @@ def printed():
     """printed(run, index) -> the text a cell wrote to standard output."""
 
     def text(run, index):
-        return "".join(
-            output.text for output in run.cells[index].outputs if output.get("name") == "stdout"
-        ).strip()
+        return "".join(output.text for output in run.cells[index].outputs if output.get("name") == "stdout").strip()
 
     return text
 

@@ -75,7 +75,9 @@ def test_private_folders_below_visible_ones_are_hidden(tmp_path, monkeypatch):
     bound = [arguments[place + 2] for place, word in enumerate(arguments) if word == "--ro-bind"]
     assert str(environment / "lib") in bound
     assert str(environment) not in bound and not any("src" in path for path in bound if str(environment) in path)
-    masks = [place for place, word in enumerate(arguments) if word == "--tmpfs" and arguments[place + 1] == str(package)]
+    masks = [
+        place for place, word in enumerate(arguments) if word == "--tmpfs" and arguments[place + 1] == str(package)
+    ]
     assert masks and masks[0] > arguments.index(str(environment / "lib"))
     closed = [arguments[place + 1] for place, word in enumerate(arguments) if word == "--remount-ro"]
     assert str(package) in closed

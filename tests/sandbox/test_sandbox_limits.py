@@ -102,9 +102,7 @@ def test_memory_of_a_family_is_summed_with_shared_pages_once():
     assert block.nbytes < together < own + block.nbytes
 
 
-def test_five_hundred_threads_fail_with_an_ordinary_error_and_leave_later_cells_their_memory(
-    sandboxed, statuses
-):
+def test_five_hundred_threads_fail_with_an_ordinary_error_and_leave_later_cells_their_memory(sandboxed, statuses):
     threads = """
 import threading
 stop = threading.Event()

@@ -90,7 +90,9 @@ def test_output_content_has_the_notebook_format_whatever_comes(kind, junk):
 
 
 def test_bundles_keep_json_under_json_types_and_text_elsewhere():
-    bundle = messages.mime_bundle({"image/png": {"a": 1}, "text/plain": ["a", "b"], "x/y+json": {"a": [1]}, "text/html": 3})
+    bundle = messages.mime_bundle(
+        {"image/png": {"a": 1}, "text/plain": ["a", "b"], "x/y+json": {"a": [1]}, "text/html": 3}
+    )
     assert bundle == {"text/plain": ["a", "b"], "x/y+json": {"a": [1]}}
 
 
@@ -171,10 +173,10 @@ def post(kind, content, key=key, parent=None, header=None):
 
 def test_forged_messages_are_data_and_cost_their_own_cell_at_most(sandboxed, statuses, printed):
     attacks = [
-        "post('stream', '{\"name\": \"stdout\", \"text\": \"sound\"}')",
-        "post('stream', '{\"name\": \"stdout\", \"text\": \"unsigned\"}', key=b'wrong')",
+        'post(\'stream\', \'{"name": "stdout", "text": "sound"}\')',
+        'post(\'stream\', \'{"name": "stdout", "text": "unsigned"}\', key=b\'wrong\')',
         "post('display_data', '{\"data\": {\"a/b+json\": ' + '[' * 100000 + ']' * 100000 + '}}')",
-        "post('display_data', '{\"data\": {\"a/b+json\": {\"x\": NaN}}}')",
+        'post(\'display_data\', \'{"data": {"a/b+json": {"x": NaN}}}\')',
         "post('display_data', b'{\"data\": \"\\xff\\xfe\"}'); post('display_data', '{}'); post('stream', '{}')",
         "post('error', '[]'); post('status', '{\"execution_state\": 3}'); post('update_display_data', '{}')",
         "post('stream', '{}', parent=[1]); post('', '{}', header={'msg_type': None})",

@@ -98,7 +98,9 @@ def test_a_delayed_death_ends_the_run_in_bounded_time(sandboxed, statuses):
 
 def test_the_output_quota_outlives_a_restart(sandboxed, statuses):
     limits = sandbox.Limits(output_bytes=200_000)
-    run = sandboxed("print('a' * 90_000)", "import os; os._exit(1)", "print('b' * 90_000)", "print('c' * 90_000)", limits=limits)
+    run = sandboxed(
+        "print('a' * 90_000)", "import os; os._exit(1)", "print('b' * 90_000)", "print('c' * 90_000)", limits=limits
+    )
     assert statuses(run) == ["ok", "died", "ok", "ok"]
     assert run.cells[2].outputs and not run.cells[3].outputs
 
@@ -238,7 +240,9 @@ from autograder import sandbox
 cell = nbformat.v4.new_code_cell("import subprocess; subprocess.run(['sleep', '73.4'])")
 sandbox.run_notebook(nbformat.v4.new_notebook(cells=[cell]), workdir=pathlib.Path(sys.argv[1]))
 """
-    process = subprocess.Popen([sys.executable, "-c", script, str(tmp_path)], env={**os.environ, "TMPDIR": str(tmp_path)})
+    process = subprocess.Popen(
+        [sys.executable, "-c", script, str(tmp_path)], env={**os.environ, "TMPDIR": str(tmp_path)}
+    )
     while not alive("sleep 73.4"):
         assert process.poll() is None
         time.sleep(0.05)
@@ -268,7 +272,8 @@ def test_folders_of_killed_graders_are_removed(tmp_path):
     gone = subprocess.Popen(["true"])
     gone.wait()
     orphan, fresh, own, other = (
-        tmp_path / f"{provisioner.PREFIX}{name}" for name in (f"{gone.pid}-a", f"{gone.pid}-b", f"{os.getpid()}-c", "x-d")
+        tmp_path / f"{provisioner.PREFIX}{name}"
+        for name in (f"{gone.pid}-a", f"{gone.pid}-b", f"{os.getpid()}-c", "x-d")
     )
     for folder in (orphan, fresh, own, other):
         folder.mkdir()

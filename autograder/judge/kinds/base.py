@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+
 from dhkit.forms import array_shape
 from dhkit.public import PublicQuestion
 
@@ -81,7 +82,11 @@ def describe(value: object) -> str:
         case Function():
             return "a function"
         case Record(items):
-            return f"a dictionary with the keys {', '.join(key[:20] for key, _ in items[:6])}" if items else "an empty dictionary"
+            return (
+                f"a dictionary with the keys {', '.join(key[:20] for key, _ in items[:6])}"
+                if items
+                else "an empty dictionary"
+            )
         case Foreign(type):
             return f"an object of type {type}"
         case Failure(message):

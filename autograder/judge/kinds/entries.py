@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from typing import TypeVar
 
 import numpy as np
+
 from dhkit.forms import array_shape
 from dhkit.public import PublicQuestion
 
@@ -50,7 +51,9 @@ class Entries:
 
         def evaluated() -> np.ndarray:
             count = len(next(iter(points.values()), np.zeros(1)))
-            columns = [np.full(count, np.nan) if isinstance(e, Blank) else evaluate(e, points) for e in self.expressions]
+            columns = [
+                np.full(count, np.nan) if isinstance(e, Blank) else evaluate(e, points) for e in self.expressions
+            ]
             return np.stack(columns, axis=1).astype(complex)
 
         return self.once("values", points, evaluated)
@@ -199,7 +202,9 @@ def compare_transform(question: PublicQuestion, student: Entries, other: Entries
     if not blocks[1]:
         with np.errstate(all="ignore"):
             miss = np.linalg.norm(theirs[:, :-1, -1] - ours[:, :-1, -1], axis=1).max()
-        remarks.append(f"the position is off by up to {miss:.3g} m{where}" if np.isfinite(miss) else "the position is not defined")
+        remarks.append(
+            f"the position is off by up to {miss:.3g} m{where}" if np.isfinite(miss) else "the position is not defined"
+        )
     remarks += [f"the {name} is right" for name, right in zip(("rotation", "position"), blocks, strict=True) if right]
     if not agree[-1].all():
         remarks.append("the last row of a transform is 0 ... 0 1")
@@ -211,7 +216,9 @@ def _cells(agree: np.ndarray) -> tuple[str, ...]:
     if not wrong:
         return ()
     more = ", ..." if len(wrong) > 6 else ""
-    return (f"cell {wrong[0]} differs" if len(wrong) == 1 else f"{len(wrong)} cells differ: {', '.join(wrong[:6])}{more}",)
+    return (
+        f"cell {wrong[0]} differs" if len(wrong) == 1 else f"{len(wrong)} cells differ: {', '.join(wrong[:6])}{more}",
+    )
 
 
 def _rotation_error(theirs: np.ndarray, ours: np.ndarray, where: str) -> str:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from dhkit.forms import array_shape
-from dhkit.public import PublicQuestion
 
 from autograder.reference.orientation import euler_matrix, rotation_angle_between
+from dhkit.forms import array_shape
+from dhkit.public import PublicQuestion
 
 from .base import Comparison, Setting, describe, in_order, refuse
 from .entries import Entries, checked, flat
@@ -28,7 +28,10 @@ def compare_orientation(question: PublicQuestion, student: Entries, other: Entri
     if not np.isfinite(theirs).all() or np.abs(theirs.imag).max() > 1e-9:
         return Comparison(False, 0.0, ("the angles are not real numbers everywhere",))
     unit = 2 * np.pi / setting.turn
-    rotations = [euler_matrix(values.real * unit, question.axes, intrinsic=question.frames != "fixed") for values in (theirs, ours)]
+    rotations = [
+        euler_matrix(values.real * unit, question.axes, intrinsic=question.frames != "fixed")
+        for values in (theirs, ours)
+    ]
     error = float(np.max(rotation_angle_between(*rotations)))
     if error <= max(setting.tolerance, 1e-7):
         return Comparison(True, 1.0)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.spatial import cKDTree
+
 from dhkit.forms import array_shape
 from dhkit.public import PublicQuestion
-from scipy.spatial import cKDTree
 
 from ..decode import Number
 from .base import Comparison, Setting, describe, refuse

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+
 from dhkit.forms import array_shape
 from dhkit.public import PublicQuestion
 
@@ -55,7 +56,9 @@ def compare_solutions(question: PublicQuestion, student: np.ndarray, other: np.n
     missing, extra = int((~same.any(axis=1)).sum()), ~same.any(axis=0)
     remarks = []
     if missing:
-        remarks.append(f"{missing} of {len(theirs)} solutions missing" if len(theirs) > 1 else "the solution is missing")
+        remarks.append(
+            f"{missing} of {len(theirs)} solutions missing" if len(theirs) > 1 else "the solution is missing"
+        )
     if not len(theirs) and len(mine):
         remarks.append("there is no solution here, the answer gives some")
     elif extra.any():

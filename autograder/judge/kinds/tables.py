@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+
 from dhkit.forms import array_shape
 from dhkit.public import DH_COLUMNS, PublicQuestion
 
@@ -53,7 +54,7 @@ def _chain(entries: Entries, question: PublicQuestion, setting: Setting) -> Chai
 
 def _ends_apart(mine: Chain, theirs: Chain, setting: Setting) -> bool:
     """A cheap no: where base, tool and joint variables are pinned, the hands must be in the same place at q = 0."""
-    if not SAME_MODEL <= setting.pinned:
+    if not setting.pinned >= SAME_MODEL:
         return False
     size = max(1.0, float(np.abs(theirs.end).max()))
     return bool(np.abs(mine.end - theirs.end).max() > 10 * setting.tolerance * size)
@@ -69,4 +70,6 @@ def _compare_cells(student: Entries, other: Entries, setting: Setting) -> Compar
     )
     if (~agree).sum() == 1:
         remarks = (f"only one cell differs, {remarks[0].replace(':', ', column')}",)
-    return Comparison(bool(agree.all()), float(agree.all(axis=1).mean()), remarks, "one_cell" if (~agree).sum() == 1 else "")
+    return Comparison(
+        bool(agree.all()), float(agree.all(axis=1).mean()), remarks, "one_cell" if (~agree).sum() == 1 else ""
+    )

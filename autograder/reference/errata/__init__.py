@@ -30,4 +30,4 @@ def find(id: str) -> Erratum:
     return known[id]
 
 
-__all__ = ["AMBIGUITIES", "Check", "ERRORS", "Erratum", "Proof", "Reading", "as_html", "find"]
+__all__ = ["AMBIGUITIES", "ERRORS", "Check", "Erratum", "Proof", "Reading", "as_html", "find"]

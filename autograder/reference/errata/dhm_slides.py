@@ -23,6 +23,7 @@ _DHM = modified_dh(a, alpha, d, theta)
 
 def _in_blocks(slide):
     """The four operators as blocks, the second one with translation `slide`."""
+
     def turn(matrix):
         return assembled([[matrix[:3, :3], sp.zeros(3, 1)], [sp.zeros(1, 3), 1]])
 
@@ -80,8 +81,11 @@ _LENGTHS = (1.0, 0.6)
 def _is_the_position(formula):
     """For every pair (i, j), the position of the direct model of the table at L133-136."""
     table = DHTable([(0, 0, 0, 0, None), (0, _LENGTHS[0], 0, 0, None), (0, _LENGTHS[1], 0, 0, 0)])
-    return all(np.allclose(formula(*_LENGTHS, i, j), table.forward([_Q1[i], _Q2[j]])[:2, 3])
-               for i in range(4) for j in range(4))
+    return all(
+        np.allclose(formula(*_LENGTHS, i, j), table.forward([_Q1[i], _Q2[j]])[:2, 3])
+        for i in range(4)
+        for j in range(4)
+    )
 
 
 def _printed_position(l1, l2, i, j):
@@ -108,8 +112,7 @@ def _fills_the_workspace(joints_meant):
 
 def _is_the_image(cell):
     """Every cell (i, j) of the image holds the position reached with q1_i and q2_j."""
-    return all(np.allclose(cell(i, j), planar_points(_LENGTHS, [_Q1[i], _Q2[j]]))
-               for i in range(4) for j in range(4))
+    return all(np.allclose(cell(i, j), planar_points(_LENGTHS, [_Q1[i], _Q2[j]])) for i in range(4) for j in range(4))
 
 
 def _ends_at_the_tip(rows):
@@ -117,92 +120,152 @@ def _ends_at_the_tip(rows):
     product = sp.eye(4)
     for row in rows:
         product = product * modified_dh(*row)
-    return agree(product[:2, 3], sp.Matrix([L1 * C(t1) + L2 * C(t1 + t2),
-                                            L1 * S(t1) + L2 * S(t1 + t2)]))
+    return agree(product[:2, 3], sp.Matrix([L1 * C(t1) + L2 * C(t1 + t2), L1 * S(t1) + L2 * S(t1 + t2)]))
 
 
 ERRORS = (
     Erratum(
-        "002-order", DOCUMENT, "L7-15",
-        "the operators are Rx(alpha), Dx(alpha), Rz(theta), Dz(d)", "the second is Dx(a)",
+        "002-order",
+        DOCUMENT,
+        "L7-15",
+        "the operators are Rx(alpha), Dx(alpha), Rz(theta), Dz(d)",
+        "the second is Dx(a)",
         "a translation takes a length; the order is right, Rx and Dx commute, and so do Rz and Dz.",
-        against("the product is the DHm matrix printed after it",
-                lambda x: agree(rot_x(alpha) * trans_x(x) * rot_z(theta) * trans_z(d), _DHM),
-                alpha, a)),
+        against(
+            "the product is the DHm matrix printed after it",
+            lambda x: agree(rot_x(alpha) * trans_x(x) * rot_z(theta) * trans_z(d), _DHM),
+            alpha,
+            a,
+        ),
+    ),
     Erratum(
-        "002-block", DOCUMENT, "L31",
+        "002-block",
+        DOCUMENT,
+        "L31",
         "the block of the translation along X holds Dx(alpha)",
         "it holds (a, 0, 0), as the last one holds (0, 0, d)",
         "the same letter as in the sequence of operators.",
-        against("the product of the four blocks is the DHm matrix",
-                lambda slide: agree(_in_blocks(slide), _DHM), [alpha, 0, 0], [a, 0, 0])),
+        against(
+            "the product of the four blocks is the DHm matrix",
+            lambda slide: agree(_in_blocks(slide), _DHM),
+            [alpha, 0, 0],
+            [a, 0, 0],
+        ),
+    ),
     Erratum(
-        "002-params", DOCUMENT, "L37",
-        "the matrix depends on (a, a, d, theta)", "on (alpha, a, d, theta)",
+        "002-params",
+        DOCUMENT,
+        "L37",
+        "the matrix depends on (a, a, d, theta)",
+        "on (alpha, a, d, theta)",
         "alpha is printed a; two equal letters are three parameters.",
-        against("these are the four symbols in the DHm matrix",
-                lambda names: set(names) == _DHM.free_symbols, (a, a, d, theta), (alpha, a, d, theta))),
+        against(
+            "these are the four symbols in the DHm matrix",
+            lambda names: set(names) == _DHM.free_symbols,
+            (a, a, d, theta),
+            (alpha, a, d, theta),
+        ),
+    ),
     Erratum(
-        "002-upstream", DOCUMENT, "L51",
+        "002-upstream",
+        DOCUMENT,
+        "L51",
         "modified DH: frame i on the downstream joint of link i; classic DH: on the upstream one",
         "the reverse: modified DH puts it on joint i (upstream, towards the base), classic DH on "
         "joint i+1 (downstream)",
         "this is the difference between the two conventions, and it is exchanged.",
-        against("the joint whose axis is z_i, found by turning it", _ends_of_the_links,
-                {"modified": "downstream", "classic": "upstream"},
-                {"modified": "upstream", "classic": "downstream"})),
+        against(
+            "the joint whose axis is z_i, found by turning it",
+            _ends_of_the_links,
+            {"modified": "downstream", "classic": "upstream"},
+            {"modified": "upstream", "classic": "downstream"},
+        ),
+    ),
     Erratum(
-        "002-nTE-noap", DOCUMENT, "L63",
-        "nTE has the columns n, o, a, p expressed in frame 0", "0TE has them",
+        "002-nTE-noap",
+        DOCUMENT,
+        "L63",
+        "nTE has the columns n, o, a, p expressed in frame 0",
+        "0TE has them",
         "columns expressed in frame 0 belong to the transform from frame 0.",
-        against("the hand's axes in frame 0 are its columns", _holds_the_hand_axes, "nTE", "0TE")),
+        against("the hand's axes in frame 0 are its columns", _holds_the_hand_axes, "nTE", "0TE"),
+    ),
     Erratum(
-        "002-p", DOCUMENT, "L116, L122",
+        "002-p",
+        DOCUMENT,
+        "L116, L122",
         "p = l1 (cos q1_i + cos(q1_i + q2_i), ...)",
         "p = (l1 cos q1_i + l2 cos(q1_i + q2_j), ...)",
         "the second link has its own length, and the second joint its own index: with one index "
         "only a curve of the workspace is drawn.",
-        against("it is the direct model at every pair of joint values", _is_the_position,
-                _printed_position, _corrected_position)),
+        against(
+            "it is the direct model at every pair of joint values",
+            _is_the_position,
+            _printed_position,
+            _corrected_position,
+        ),
+    ),
     Erratum(
-        "002-q2vec", DOCUMENT, "L124",
-        "q2 runs from q_k,min to q_k,max", "from q_2,min to q_2,max",
+        "002-q2vec",
+        DOCUMENT,
+        "L124",
+        "q2 runs from q_k,min to q_k,max",
+        "from q_2,min to q_2,max",
         "k is no joint here; taken as any joint it carries the range of joint 1 to joint 2.",
-        against("all points lie in the workspace of the two ranges", _fills_the_workspace,
-                (1, 2), (2,))),
+        against("all points lie in the workspace of the two ranges", _fills_the_workspace, (1, 2), (2,)),
+    ),
     Erratum(
-        "002-grid", DOCUMENT, "L130",
+        "002-grid",
+        DOCUMENT,
+        "L130",
         "image of the grid with joint values q in all but two cells",
         "every cell is p_ij = f(q1_i, q2_j)",
         "the map takes joint values to positions; only two printed cells are positions.",
-        against("every cell is the position of its pair", _is_the_image,
-                lambda i, j: (planar_points(_LENGTHS, [_Q1[i], _Q2[j]]) if i == 0 and j < 2
-                              else (_Q1[i], _Q2[j])),
-                lambda i, j: _corrected_position(*_LENGTHS, i, j))),
+        against(
+            "every cell is the position of its pair",
+            _is_the_image,
+            lambda i, j: planar_points(_LENGTHS, [_Q1[i], _Q2[j]]) if i == 0 and j < 2 else (_Q1[i], _Q2[j]),
+            lambda i, j: _corrected_position(*_LENGTHS, i, j),
+        ),
+    ),
     Erratum(
-        "002-table-2R", DOCUMENT, "L139-141",
+        "002-table-2R",
+        DOCUMENT,
+        "L139-141",
         "planar 2R with DHm header and rows (L1, 0, 0, t1), (L2, 0, 0, t2)",
         "DHm rows (0, 0, 0, t1), (L1, 0, 0, t2) and a tool (L2, 0, 0, 0)",
         "these are classic rows a_i, alpha_i. Read as DHm, axis 1 stands L1 away from the base "
         "and the last link is missing.",
-        against("the rows lead to the tip of the planar arm", _ends_at_the_tip,
-                [(L1, 0, 0, t1), (L2, 0, 0, t2)],
-                [(0, 0, 0, t1), (L1, 0, 0, t2), (L2, 0, 0, 0)])),
+        against(
+            "the rows lead to the tip of the planar arm",
+            _ends_at_the_tip,
+            [(L1, 0, 0, t1), (L2, 0, 0, t2)],
+            [(0, 0, 0, t1), (L1, 0, 0, t2), (L2, 0, 0, 0)],
+        ),
+    ),
     Erratum(
-        "002-table-puma", DOCUMENT, "L147-153",
-        "PUMA-like table whose row 6 has alpha = 0", "row 6 has alpha = -90 degrees",
+        "002-table-puma",
+        DOCUMENT,
+        "L147-153",
+        "PUMA-like table whose row 6 has alpha = 0",
+        "row 6 has alpha = -90 degrees",
         "rows 1 to 5 are DHm, row 6 is the last row of a classic table: axis 6 falls on axis 5.",
-        against("the six joints give six freedoms (rank of the Jacobian)",
-                lambda robot: mobility(robot.table) == 6, robots.PUMA_PRINTED, robots.PUMA)),
+        against(
+            "the six joints give six freedoms (rank of the Jacobian)",
+            lambda robot: mobility(robot.table) == 6,
+            robots.PUMA_PRINTED,
+            robots.PUMA,
+        ),
+    ),
 )
 
 
 # -- ambiguities ------------------------------------------------------------------------
 
+
 def _counts_the_solutions(claim):
     """Solutions of the planar 2R for targets inside, on the limit, outside, at the centre."""
-    found = [int(type8(l1, l2, x, 0).count)
-             for l1, l2, x in [(1, 0.6, 1), (1, 0.6, 1.6), (1, 0.6, 2), (1, 1, 0)]]
+    found = [int(type8(l1, l2, x, 0).count) for l1, l2, x in [(1, 0.6, 1), (1, 0.6, 1.6), (1, 0.6, 2), (1, 1, 0)]]
     return claim == tuple(found)
 
 
@@ -220,17 +283,27 @@ def _contains_the_cloud(quantifier):
 
 AMBIGUITIES = (
     Erratum(
-        "002-dk-ik", DOCUMENT, "L79-90",
+        "002-dk-ik",
+        DOCUMENT,
+        "L79-90",
         "the inverse model as a function f^-1 that is usually computed numerically",
         "a relation: none, one, several or infinitely many joint values; often in closed form",
         "f is not one-to-one. Arms with a spherical wrist have closed forms.",
-        against("number of solutions of a 2R: inside, on the limit, outside, folded on the centre",
-                _counts_the_solutions, (1, 1, 1, 1), (2, 1, 0, -1))),
+        against(
+            "number of solutions of a 2R: inside, on the limit, outside, folded on the centre",
+            _counts_the_solutions,
+            (1, 1, 1, 1),
+            (2, 1, 0, -1),
+        ),
+    ),
     Erratum(
-        "002-workspace-def", DOCUMENT, "L94",
+        "002-workspace-def",
+        DOCUMENT,
+        "L94",
         "the workspace is what the end effector can reach, no word on orientation",
         "points reached with at least one orientation (reachable workspace)",
         "the construction that follows collects positions; few of them can be reached with every "
         "orientation (dexterous workspace).",
-        against("the cloud of a planar 3R lies in it", _contains_the_cloud, np.all, np.any)),
+        against("the cloud of a planar 3R lies in it", _contains_the_cloud, np.all, np.any),
+    ),
 )

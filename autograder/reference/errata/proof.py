@@ -52,8 +52,7 @@ class Check:
 
     def __call__(self) -> Proof:
         found = [bool(self.holds(reading.form)) for reading in self.readings]
-        lines = [f"{'holds' if ok else 'fails'}: {reading.words}"
-                 for reading, ok in zip(self.readings, found)]
+        lines = [f"{'holds' if ok else 'fails'}: {reading.words}" for reading, ok in zip(self.readings, found)]
         return Proof(
             not any(ok for reading, ok in zip(self.readings, found) if not reading.right),
             all(ok for reading, ok in zip(self.readings, found) if reading.right),
@@ -84,11 +83,11 @@ class Erratum:
         return self.check()
 
 
-def against(test: str, holds: Callable[[Any], bool], printed: Any, corrected: Any,
-            *further: Reading) -> Check:
+def against(test: str, holds: Callable[[Any], bool], printed: Any, corrected: Any, *further: Reading) -> Check:
     """The usual check: the printed form must fail, the corrected one hold."""
-    return Check(test, holds, (Reading("as printed", printed, False),
-                               Reading("as corrected", corrected, True), *further))
+    return Check(
+        test, holds, (Reading("as printed", printed, False), Reading("as corrected", corrected, True), *further)
+    )
 
 
 def agree(*expressions, draws: int = 3, tolerance: float = 1e-9) -> bool:
@@ -97,8 +96,7 @@ def agree(*expressions, draws: int = 3, tolerance: float = 1e-9) -> bool:
     All free symbols get the same random values, in (0.2, 1.4), in every expression; the
     draws are seeded. Different shapes are different.
     """
-    matrices = [sp.Matrix([e]) if isinstance(e, (int, float, sp.Expr)) else sp.Matrix(e)
-                for e in expressions]
+    matrices = [sp.Matrix([e]) if isinstance(e, (int, float, sp.Expr)) else sp.Matrix(e) for e in expressions]
     if len({m.shape for m in matrices}) != 1:
         return False
     symbols = sorted(set().union(*(m.free_symbols for m in matrices)), key=str)

@@ -6,6 +6,8 @@ common normal to axis i + 1, then along that axis; the joints sit on the way, wh
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import sympy
 from matplotlib.colors import to_rgb
@@ -130,7 +132,12 @@ class Bodies:
         up = np.linspace(0, np.pi, self.fine // 2 + 1)
         turn = np.linspace(0, 2 * np.pi, self.fine + 1)
         grid = np.stack(
-            [np.outer(np.sin(up), np.cos(turn)), np.outer(np.sin(up), np.sin(turn)), np.outer(np.cos(up), turn * 0 + 1)], -1
+            [
+                np.outer(np.sin(up), np.cos(turn)),
+                np.outer(np.sin(up), np.sin(turn)),
+                np.outer(np.cos(up), turn * 0 + 1),
+            ],
+            -1,
         )
         quads = np.stack([grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]], axis=2).reshape(-1, 4, 3)
         normals = quads.mean(axis=1)
@@ -266,7 +273,7 @@ class _Robot:
 
     def _path(self, bodies, points, radius, shade, first=None):
         width = first or radius
-        for start, end in zip(points, points[1:]):
+        for start, end in itertools.pairwise(points):
             if np.linalg.norm(end - start) > 1e-9:
                 bodies.tube(start, end, width, shade)
             width = radius
@@ -299,7 +306,9 @@ class _Robot:
         axes = np.column_stack([self.hand, side, np.cross(self.hand, side)])
         bodies.box(palm, axes, (0.55 * r, 2.3 * r, 0.8 * r), shade, cells=2)
         for way in (-1, 1):
-            bodies.box(palm + 1.9 * r * self.hand + way * 1.9 * r * side, axes, (1.5 * r, 0.42 * r, 0.7 * r), shade, cells=2)
+            bodies.box(
+                palm + 1.9 * r * self.hand + way * 1.9 * r * side, axes, (1.5 * r, 0.42 * r, 0.7 * r), shade, cells=2
+            )
 
 
 # ---------------------------------------------------------------- labels that keep out of one another's way
@@ -354,7 +363,9 @@ class Labels:
         for sweep in range(3):
             for k, (half, options) in enumerate(choices):
                 others = [(where[j], choices[j][0]) for j in range(len(choices)) if j != k and (sweep or j in placed)]
-                where[k] = min(options, key=lambda option: option[1] + _crowding(option[0], half, others, obstacles, frame))[0]
+                where[k] = min(
+                    options, key=lambda option: option[1] + _crowding(option[0], half, others, obstacles, frame)
+                )[0]
                 placed.add(k)
         for (at, text, _, colour, fontsize, _), anchor, to in zip(self.wanted, anchors, where):
             shift = (to - anchor) / scale
@@ -415,7 +426,9 @@ def fill_panel(ax, points, share=0.78):
         elev, azim = np.radians([ax.elev, ax.azim])
         right = np.array([-np.sin(azim), np.cos(azim), 0])
         up = np.array([-np.sin(elev) * np.cos(azim), -np.sin(elev) * np.sin(azim), np.cos(elev)])
-        start, end = (ax.transData.transform(proj3d.proj_transform(*p, ax.get_proj())[:2]) for p in (centre, centre + right))
+        start, end = (
+            ax.transData.transform(proj3d.proj_transform(*p, ax.get_proj())[:2]) for p in (centre, centre + right)
+        )
         scale = np.hypot(*(end - start))
         centre = centre + (middle[0] * right + middle[1] * up) / scale
     for setter, c, h in zip((ax.set_xlim, ax.set_ylim, ax.set_zlim), centre, half):
@@ -518,7 +531,11 @@ def _lines(robot) -> list[tuple[list[int], np.ndarray, np.ndarray]]:
 def _draw_axes(ax, robot, labels, names, shown, size):
     ends = []
     for members, foot, along in _lines(robot):
-        stops = [robot.origins[i] for i in members] + [robot.centres[i] for i in members] + [robot.feet[i - 1] for i in members]
+        stops = (
+            [robot.origins[i] for i in members]
+            + [robot.centres[i] for i in members]
+            + [robot.feet[i - 1] for i in members]
+        )
         places = np.array([(stop - foot) @ along for stop in stops])
         low, high = foot + (places.min() - 1.05 * size) * along, foot + (places.max() + 1.5 * size) * along
         ax.plot(*zip(low, high), color=strokes.SOFT, lw=1, ls=strokes.CENTRE_LINE, zorder=2)
@@ -646,7 +663,8 @@ def draw_chain_postures(rows, joints, solutions, values=None, ax=None, *, tool=F
         extent = np.vstack([extent, extent - 0.5 * unit, extent + 0.5 * unit])
     if robots:
         handles = [
-            Patch(facecolor=s, edgecolor=strokes.INK, label=f"posture {k + 1}") for k, s in enumerate(shades[: len(robots)])
+            Patch(facecolor=s, edgecolor=strokes.INK, label=f"posture {k + 1}")
+            for k, s in enumerate(shades[: len(robots)])
         ]
         # Below our own figure; in somebody else's axes there may be no room outside.
         below = {

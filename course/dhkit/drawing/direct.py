@@ -98,9 +98,11 @@ def draw_turns(lengths=(0.5, 0.4, 0.2), q=(np.radians(40), np.radians(55), np.ra
     q = strokes.as_numbers(q, "t1, t2, t4", (3,))
     points = planar_points(lengths, np.zeros(3))
     reach = lengths.sum()
-    figure, panels = plt.subplots(1, 3, figsize=(10.5, 3.9), sharex=True, sharey=True, layout="constrained")
+    _figure, panels = plt.subplots(1, 3, figsize=(10.5, 3.9), sharex=True, sharey=True, layout="constrained")
     centre_names = (
-        ("[0, 0]", "[L_1, 0]", "[L_1 + L_2, 0]") if hand_first else ("[0, 0]", r"p_1(\theta_1)", r"p_2(\theta_1, \theta_2)")
+        ("[0, 0]", "[L_1, 0]", "[L_1 + L_2, 0]")
+        if hand_first
+        else ("[0, 0]", r"p_1(\theta_1)", r"p_2(\theta_1, \theta_2)")
     )
     seen = [points]
     for step, (ax, joint) in enumerate(zip(panels, (2, 1, 0) if hand_first else (0, 1, 2))):
@@ -191,7 +193,7 @@ def draw_six_axes(q=(0, 0, 0, 0, 0, 0), D3=0.2, L2=0.5, D4=0.6, h=0.2, ax=None):
         strokes.angle_arc_3d(ax, place, aside, np.cross(along, aside), ring, 1.6 * np.pi, "", 1)
         up = np.array([0, 0, 1.0]) if abs(along[2]) < 0.7 else aside
         labels.ask(place + 1.1 * ring * up, rf"$\theta_{i + 1}$", up)
-        labels.avoid(place + ring * np.array([way for way in (aside, -aside, np.cross(along, aside), np.cross(aside, along))]))
+        labels.avoid(place + ring * np.array(list((aside, -aside, np.cross(along, aside), np.cross(aside, along)))))
         points += list(ends)
     bodies.draw(ax, zorder=2.5)
     for link, point in ((6, wrist), (6, hand)):

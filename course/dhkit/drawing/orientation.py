@@ -101,7 +101,11 @@ def _brick(ax, orientation, centre, size=(1.0, 0.7, 0.24), zorder=2.0):
             corners[:, v] = np.array([-1, -1, 1, 1]) * half[v]
             shade = 0.68 + 0.27 * abs(normal @ np.array([0.3, -0.25, 0.92]))
             face = Poly3DCollection(
-                [centre + corners @ orientation.T], facecolors=str(shade), edgecolors=strokes.INK, linewidths=0.8, zorder=zorder
+                [centre + corners @ orientation.T],
+                facecolors=str(shade),
+                edgecolors=strokes.INK,
+                linewidths=0.8,
+                zorder=zorder,
             )
             ax.add_collection3d(face, autolim=False)
 
@@ -237,7 +241,7 @@ def _rings(ax, centre, angles, axes, names):
             _rod(ax, centre + sense * inner * line, centre + sense * outer * line, centre)
     _brick(ax, states[3], centre, (0.62, 0.46, 0.18), zorder=4)
     draw_frames(ax, [_frame(states[3], centre)], [""], 0.62)
-    for n, group in enumerate(_same_lines(lines)):
+    for _n, group in enumerate(_same_lines(lines)):
         line, letter = lines[group[0]], axes[group[0]]
         ends = np.array([centre - 1.52 * line, centre + 1.52 * line])
         ax.plot(*ends.T, color=strokes.AXIS_COLOURS[letter], lw=1.1, ls=strokes.CENTRE_LINE, zorder=1.0)
@@ -302,7 +306,10 @@ def _base_hinge(ax, centre, line):
         ax.plot(*zip(foot - 0.16 * across, foot + 0.16 * across), color=strokes.INK, lw=1.4, zorder=3)
         for s in np.linspace(-0.12, 0.16, 5):
             ax.plot(
-                *zip(foot + s * across, foot + (s - 0.06) * across + sense * 0.07 * line), color=strokes.INK, lw=0.8, zorder=3
+                *zip(foot + s * across, foot + (s - 0.06) * across + sense * 0.07 * line),
+                color=strokes.INK,
+                lw=0.8,
+                zorder=3,
             )
 
 
@@ -411,7 +418,9 @@ def draw_atan2(n=0.6, m=-0.8, ax=None):
     strokes.write(ax, 1.17 * tip, "$(m, n)$", ha="left" if m >= 0 else "right")
     strokes.angle_arc(ax, (0, 0), 0.3, 0, angle, "")
     arc = 0.3 * strokes.unit_vector(angle / 2)
-    strokes.write(ax, arc + (0.07, 0.1 if n >= 0 else -0.1), f"atan2 = {strokes.in_degrees(angle)}", ha="left", fontsize=10)
+    strokes.write(
+        ax, arc + (0.07, 0.1 if n >= 0 else -0.1), f"atan2 = {strokes.in_degrees(angle)}", ha="left", fontsize=10
+    )
     if m < 0:
         wrong = np.arctan(n / m)
         strokes.arrow(ax, (0, 0), strokes.unit_vector(wrong), strokes.INK, width=1.6, dashes=(0, (3, 2)), neck=0.95)
@@ -441,7 +450,9 @@ def draw_flip(misses=(np.radians(20), np.radians(5), np.radians(1)), ax=None):
     swing = np.radians(np.linspace(-60, 60, 721))
     for miss, dashes in zip(misses, ("-", (0, (5, 1.5)), (0, (6, 1.5, 1.2, 1.5)), (0, (1, 1)))):
         first = np.arctan2(np.sin(miss), np.sin(swing) * np.cos(miss))
-        ax.plot(np.degrees(swing), np.degrees(first), color=strokes.INK, lw=1.7, ls=dashes, label=f"{np.degrees(miss):.3g}°")
+        ax.plot(
+            np.degrees(swing), np.degrees(first), color=strokes.INK, lw=1.7, ls=dashes, label=f"{np.degrees(miss):.3g}°"
+        )
     ax.grid(True)
     ax.set(
         xlabel="position of the hand on its swing (degrees)", ylabel=r"$\theta_4$ (degrees)",

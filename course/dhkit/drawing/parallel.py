@@ -250,7 +250,9 @@ def draw_coupler_curve(base, platform, lengths, modes=(), ax=None, *, view=None)
     ax = ax or strokes.new_axes((5.8, 5.4))
     strokes.show_plane(ax)
     for k, path in enumerate(coupler_curve(base, platform, lengths)):
-        ax.plot(*path.T, color=strokes.INK, lw=1.8, zorder=4, label=None if k else "path of $B_3$ (legs 1 and 2 locked)")
+        ax.plot(
+            *path.T, color=strokes.INK, lw=1.8, zorder=4, label=None if k else "path of $B_3$ (legs 1 and 2 locked)"
+        )
     dashes = strokes.AXIS_DASHES["z"]
     circle = Circle(base[2], lengths[2], fill=False, ec=strokes.AXIS_COLOURS["z"], lw=1.8, ls=dashes, zorder=3.8)
     ax.add_patch(circle)

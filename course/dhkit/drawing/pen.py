@@ -307,18 +307,27 @@ def draw_pen_sheet(height, sizes=SIZES, ax=None):
     section.plot([0, 0], [0, h1 + 1.2 * p1], color=strokes.AXIS_COLOURS["z"], lw=1.3, ls=strokes.CENTRE_LINE)
     section.plot([0, 1.12 * r.max()], [height] * 2, color="#c79100", lw=1.6, ls=(0, (5, 2)))
     section.annotate(
-        "sheet", (1.12 * r.max(), height), xytext=(0, 4), textcoords="offset points", ha="right", path_effects=strokes.halo()
+        "sheet",
+        (1.12 * r.max(), height),
+        xytext=(0, 4),
+        textcoords="offset points",
+        ha="right",
+        path_effects=strokes.halo(),
     )
     section.axvline(side, color=strokes.SOFT, lw=1, ls=(0, (2, 2)), zorder=0.5)
     section.annotate("$H$", (side, 0), xytext=(3, 3), textcoords="offset points")
     strokes.show_plane(paper)
     paper.set_title(f"the sheet at $z$ = {height:.2f} m, from above".replace("-", "\N{MINUS SIGN}"), fontsize=10)
     inner, outer = r.min(), r.max()
-    paper.add_patch(Wedge((0, 0), outer, 0, 360, width=outer - inner, facecolor="#eeeeee", edgecolor="none", zorder=0.5))
+    paper.add_patch(
+        Wedge((0, 0), outer, 0, 360, width=outer - inner, facecolor="#eeeeee", edgecolor="none", zorder=0.5)
+    )
     for k, radius in enumerate(radii):
         section.plot(radius, height, "o", ms=8, mfc="white", mec=strokes.INK, mew=1.6, zorder=5)
         paper.add_patch(
-            Circle((0, 0), radius, fill=False, edgecolor=strokes.INK, lw=2.2, ls="-" if k == 0 else (0, (5, 2)), zorder=3)
+            Circle(
+                (0, 0), radius, fill=False, edgecolor=strokes.INK, lw=2.2, ls="-" if k == 0 else (0, (5, 2)), zorder=3
+            )
         )
         end = radius * strokes.unit_vector(np.radians((35, 145)[k]))
         strokes.arrow(paper, (0, 0), end, width=1, zorder=2)

@@ -55,7 +55,7 @@ def _draw_arm(ax, table, shade, shift=(0, 0, 0), size=None, width=7.0, zorder=3.
         arrow_end = nose + 0.16 * size * frames[1][:3, 0]
         strokes.arrow_3d(ax, nose, arrow_end, width=1.6, zorder=zorder + 0.55, scale=8)
     # Far parts first: mplot3d does not hide what lies behind.
-    segments = [pair for pair in zip([foot, *path] if base else path, path if base else path[1:])]
+    segments = list(zip([foot, *path] if base else path, path if base else path[1:]))
     segments = [(start, end) for start, end in segments if np.linalg.norm(end - start) > 1e-9]
     depths = [(start + end) @ towards / 2 for start, end in segments]
     low, spread = min(depths), max(np.ptp(depths), 1e-9)
@@ -65,7 +65,9 @@ def _draw_arm(ax, table, shade, shift=(0, 0, 0), size=None, width=7.0, zorder=3.
             ax.plot(*zip(shift + start, shift + end), color=colour, lw=pen, solid_capstyle="round", zorder=layer)
     joints = np.unique(np.round(frames[1:, :3, 3], 9), axis=0)
     for at in joints:
-        ax.plot(*(shift + at)[:, None], "o", ms=0.75 * width, mfc="white", mec=strokes.INK, mew=1.1, zorder=zorder + 0.7)
+        ax.plot(
+            *(shift + at)[:, None], "o", ms=0.75 * width, mfc="white", mec=strokes.INK, mew=1.1, zorder=zorder + 0.7
+        )
     if len(frames) >= 7:
         points += _draw_wrist_and_hand(ax, frames, shift, 0.17 * size, zorder + 0.8)
     return points
@@ -235,7 +237,9 @@ def draw_arm_plane(lengths, solutions, target=None, ax=None):
         labels.append(f"{k + 1}:  " + ",  ".join(f"${name}$ = {strokes.in_degrees(_wrapped(t))}" for name, t in names))
     for (*elbow, x, y), owners in elbows.items():
         out = np.array(elbow) - 0.5 * np.array([x, y])
-        strokes.write(ax, elbow + 0.13 * total * out / (np.hypot(*out) or 1), ", ".join(owners), fontweight="bold", zorder=20)
+        strokes.write(
+            ax, elbow + 0.13 * total * out / (np.hypot(*out) or 1), ", ".join(owners), fontweight="bold", zorder=20
+        )
     strokes.target_mark(ax, goal)
     strokes.leave_room(ax, 0.16 * total)
     if boxes:
@@ -285,7 +289,10 @@ def draw_shoulder_top(offset, target, turns=None, ax=None, *, offset_name="d_2")
         strokes.link(ax, foot, foot + abs(a) * along, fill, width=10, zorder=3.2)
         corner = 0.26 * offset
         ax.plot(
-            *zip(foot + corner * along, foot + corner * (along - out), foot - corner * out), color=strokes.INK, lw=0.9, zorder=2
+            *zip(foot + corner * along, foot + corner * (along - out), foot - corner * out),
+            color=strokes.INK,
+            lw=0.9,
+            zorder=2,
         )
         strokes.write(ax, foot + 0.5 * abs(a) * along + 0.32 * offset * out, f"{k + 1}", fontweight="bold")
         strokes.write(ax, foot / 2 - 0.24 * offset * along, f"${offset_name}$")
@@ -333,7 +340,9 @@ def draw_aligned_wrist(angles, total=0.0, ax=None):
         last = k == len(angles) - 1
         colour = strokes.AXIS_COLOURS["z"] if last else grey
         ax.plot(*zip(-0.75 * axis5, (0, 0, 0)), color=grey, lw=5 if last else 3, zorder=3 + 0.1 * k)
-        strokes.arrow_3d(ax, 0 * along, 0.95 * axis5, colour, strokes.AXIS_DASHES["z"] if last else "-", zorder=3.05 + 0.1 * k)
+        strokes.arrow_3d(
+            ax, 0 * along, 0.95 * axis5, colour, strokes.AXIS_DASHES["z"] if last else "-", zorder=3.05 + 0.1 * k
+        )
         if last:
             strokes.write_3d(ax, 1.14 * axis5, "$Z_5$", color=colour)
     ax.plot([0], [0], [0], "o", ms=11, mfc="white", mec=strokes.INK, mew=1.4, zorder=4.5)

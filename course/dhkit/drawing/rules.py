@@ -207,12 +207,16 @@ def panels_3d(titles, width=3.5, height=3.6, columns=None, view=(20, -58)):
     axes = []
     for k, title in enumerate(titles):
         left, bottom = (k % columns) / columns, 1 - (k // columns + 1) / rows
-        ax = figure.add_axes((left, bottom, 1 / columns, (1 - 0.32 / height) / rows), projection="3d", computed_zorder=False)
+        ax = figure.add_axes(
+            (left, bottom, 1 / columns, (1 - 0.32 / height) / rows), projection="3d", computed_zorder=False
+        )
         ax.view_init(*view)
         ax.set_proj_type("ortho")
         ax.set_axis_off()
         ax.set_clip_on(False)
-        figure.text(left + 0.5 / columns, bottom + (1 - 0.12 / height) / rows, title, ha="center", va="top", fontsize=11)
+        figure.text(
+            left + 0.5 / columns, bottom + (1 - 0.12 / height) / rows, title, ha="center", va="top", fontsize=11
+        )
         axes.append(ax)
     return axes
 
@@ -237,7 +241,9 @@ def draw_axis_cases():
     for ax, (kind, first, second) in zip(panels, cases):
         first, second = _as_line(first, "axis"), _as_line(second, "axis")
         labels = Labels()
-        extent = [add_two_axes(ax, labels, first, second, normal=True, frame=False, angle=kind != "parallel", body=False)]
+        extent = [
+            add_two_axes(ax, labels, first, second, normal=True, frame=False, angle=kind != "parallel", body=False)
+        ]
         feet, _ = common_normal(first, second)
         unit = np.linalg.norm(np.ptp(extent[0], axis=0))
         x, size = link_direction(first, second), 0.2 * unit

@@ -87,7 +87,9 @@ def _height(ax, x, start, rise, name, unit):
 
 
 @strokes.styled
-def draw_s600_top(q=(np.radians(30), np.radians(50), np.radians(40)), d2=LENGTHS[0], d3=LENGTHS[1], ax=None, *, down=True):
+def draw_s600_top(
+    q=(np.radians(30), np.radians(50), np.radians(40)), d2=LENGTHS[0], d3=LENGTHS[1], ax=None, *, down=True
+):
     """The arm from above, with the angles t1, t2, t4 and the heading omega of x_4.
 
     Parameters
@@ -196,7 +198,9 @@ def draw_type8(
     strokes.angle_arc(ax, (0, 0), 0.2 * unit, 0, t1, names[2], 1.3)
     strokes.angle_arc(ax, points[1], 0.14 * unit, t1, t2, names[3], 1.4)
     strokes.write(ax, points[1] / 2 + 0.07 * unit * left, f"${names[0]}$")
-    strokes.write(ax, (points[1] + points[2]) / 2 + 0.08 * unit * strokes.unit_vector(t1 + t2 + np.pi / 2), f"${names[1]}$")
+    strokes.write(
+        ax, (points[1] + points[2]) / 2 + 0.08 * unit * strokes.unit_vector(t1 + t2 + np.pi / 2), f"${names[1]}$"
+    )
     strokes.write(ax, points[2] + (0, 0.07 * unit), f"$({names[4]}, {names[5]})$")
     ax.margins(0.08)
     return ax

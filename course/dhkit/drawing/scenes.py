@@ -55,10 +55,18 @@ def reading_scene(ax, labels, reach, tilt, drop, turn):
     for at in (np.zeros(3), origin):
         ax.plot(*at[:, None], "o", ms=5, color=strokes.INK, zorder=8)
     # Helpers for the eye: both X axes and both Z axes from one point each.
-    ax.plot(*zip(origin, origin + np.array([1.1 * size, 0, 0])), color=strokes.AXIS_COLOURS["x"], lw=1, ls=THIN, zorder=2)
+    ax.plot(
+        *zip(origin, origin + np.array([1.1 * size, 0, 0])), color=strokes.AXIS_COLOURS["x"], lw=1, ls=THIN, zorder=2
+    )
     ax.plot(*zip(foot, foot + np.array([0, 0, 1.5 * size])), color=strokes.AXIS_COLOURS["z"], lw=1, ls=THIN, zorder=2)
     return np.vstack(
-        [*points, origin + size * x2, foot + [0, 0, 1.5 * size], 1.35 * foot, [[0, 0, -0.3 * reach], [0, 0, 0.8 * reach]]]
+        [
+            *points,
+            origin + size * x2,
+            foot + [0, 0, 1.5 * size],
+            1.35 * foot,
+            [[0, 0, -0.3 * reach], [0, 0, 0.8 * reach]],
+        ]
     )
 
 
@@ -104,7 +112,9 @@ def parallel_scene(ax, labels, gap, side, height, joints=(0.2, 0.35)):
     points = [bodies.points()]
     high = height + 0.5 * unit
     for at, name in ((first, "1"), (second, "2")):
-        ax.plot(*zip(at * (1, 1, 0), at * (1, 1, 0) + high * up), color=strokes.SOFT, lw=1, ls=strokes.CENTRE_LINE, zorder=2)
+        ax.plot(
+            *zip(at * (1, 1, 0), at * (1, 1, 0) + high * up), color=strokes.SOFT, lw=1, ls=strokes.CENTRE_LINE, zorder=2
+        )
         add_axis(ax, labels, at * (1, 1, 0) + (high - 0.28 * unit) * up, up, 0.28 * unit, "z", name)
         points.append(np.array([at * (1, 1, 0), at * (1, 1, 0) + high * up]))
     ends = np.array([meeting - 0.3 * unit * across, meeting + 0.9 * unit * across])
@@ -162,7 +172,11 @@ def gripper_at(ax, frame, size=0.24):
     bodies.box(at - 0.72 * size * ahead, axes, (0.2 * size, 0.75 * size, 0.14 * size), 0.9, cells=5)
     for way in (-1, 1):
         bodies.box(
-            at - 0.25 * size * ahead + 0.55 * way * size * jaws, axes, (0.15 * size, 0.08 * size, 0.36 * size), 0.68, cells=4
+            at - 0.25 * size * ahead + 0.55 * way * size * jaws,
+            axes,
+            (0.15 * size, 0.08 * size, 0.36 * size),
+            0.68,
+            cells=4,
         )
     bodies.draw(ax, 1.2)
     return bodies.points()

@@ -23,7 +23,8 @@ def draw_marks_by_line(marks, ax=None, *, kinds=("error", "ambiguity")):
     matplotlib Axes
     """
     lines = {
-        name: [strokes.as_numbers(list(part), f"lines of {name}", (None,)) for part in parts] for name, parts in marks.items()
+        name: [strokes.as_numbers(list(part), f"lines of {name}", (None,)) for part in parts]
+        for name, parts in marks.items()
     }
     ax = ax or strokes.new_axes((8.6, 0.55 * len(lines) + 1.3))
     styles = (
@@ -34,7 +35,9 @@ def draw_marks_by_line(marks, ax=None, *, kinds=("error", "ambiguity")):
         ax.axhline(height, color=strokes.FAINT, lw=1, zorder=1)
         for part, style in zip(parts, styles):
             ax.plot(part, [height] * len(part), ls="none", zorder=3, **style)
-    ax.set_yticks(range(len(lines)), [f"{name}\n{len(first)} + {len(second)}" for name, (first, second) in lines.items()])
+    ax.set_yticks(
+        range(len(lines)), [f"{name}\n{len(first)} + {len(second)}" for name, (first, second) in lines.items()]
+    )
     ax.tick_params(axis="y", length=0)
     ax.invert_yaxis()
     ax.set_xlabel("line of the text")

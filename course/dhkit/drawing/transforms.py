@@ -78,7 +78,9 @@ def draw_walk(moves, ax=None, *, progress=None, names=("i-1", "i"), labels=None,
     labels = [SYMBOLS[kind] for kind, _ in moves] if labels is None else list(labels)
     if len(labels) != len(moves):
         raise ValueError(f"labels: expected {len(moves)}, found {len(labels)}")
-    done = len(moves) if progress is None else float(np.clip(strokes.as_numbers(progress, "progress", ()), 0, len(moves)))
+    done = (
+        len(moves) if progress is None else float(np.clip(strokes.as_numbers(progress, "progress", ()), 0, len(moves)))
+    )
     own, ax = ax is None, ax or strokes.new_axes_3d(**VIEW)
     frame = full[0]
     for k, ((kind, value), label) in enumerate(zip(moves, labels)):
@@ -235,7 +237,9 @@ def draw_point_in_two_frames(shift=(0.7, 0.35), turn=np.radians(30), point=(0.55
         strokes.axis_arrow(ax, origin, angle, reach[0], "x", f"x_{name}", away=0.07, neck=0.96)
         strokes.axis_arrow(ax, origin, angle + np.pi / 2, reach[1], "y", f"y_{name}", away=0.1, neck=0.96)
         ax.plot(*origin, "o", ms=4.5, color=strokes.INK, zorder=7)
-        strokes.write(ax, origin - 0.07 * (strokes.unit_vector(angle) + strokes.unit_vector(angle + np.pi / 2)), f"$O_{name}$")
+        strokes.write(
+            ax, origin - 0.07 * (strokes.unit_vector(angle) + strokes.unit_vector(angle + np.pi / 2)), f"$O_{name}$"
+        )
     strokes.arrow(ax, (0, 0), shift, width=1.3, neck=0.94)
     strokes.write(ax, 0.5 * shift + (-0.05, 0.07), r"$\mathbf{t}$")
     ax.plot(*zip(shift, shift + (0.4, 0)), color=strokes.SOFT, lw=0.9, ls=(0, (3, 2)), zorder=2)
@@ -274,7 +278,9 @@ def draw_conventions():
         at = (near, far)[place]
         strokes.arrow(ax, at, at + (0.36, 0), strokes.AXIS_COLOURS["x"], width=2, zorder=8)
         strokes.write(ax, at + (0.42, 0), "$x_i$", color=strokes.AXIS_COLOURS["x"], zorder=10)
-        strokes.arrow(ax, at, at + (0, 0.38), strokes.AXIS_COLOURS["z"], width=2, dashes=strokes.AXIS_DASHES["z"], zorder=8)
+        strokes.arrow(
+            ax, at, at + (0, 0.38), strokes.AXIS_COLOURS["z"], width=2, dashes=strokes.AXIS_DASHES["z"], zorder=8
+        )
         strokes.write(ax, at + (0.07, 0.37), "$z_i$", color=strokes.AXIS_COLOURS["z"], zorder=10)
         ax.plot(*at, "o", ms=5, color=strokes.INK, zorder=11)
         strokes.write(ax, at + (-0.08, -0.1), "$O_i$", zorder=11)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import ListedColormap
@@ -158,7 +160,7 @@ def draw_joint_grid(lengths, limits, counts=(9, 7), chosen=(6, 4), ax=None, *, c
 
 
 def _shade_cells(joints, plane, lengths, t1, t2):
-    for k, values in enumerate(zip(t2[:-1], t2[1:])):
+    for k, values in enumerate(itertools.pairwise(t2)):
         shade = ("#9fc6de", "#f0b692")[k % 2]
         cell = np.array([t1, values])
         corner, (width, height) = np.degrees(cell[:, 0]), np.degrees(np.ptp(cell, axis=1))
@@ -173,7 +175,9 @@ def _mark_pair(joints, plane, lengths, t1, t2):
         (plane, point, "$p_{ij}$", (-30, 4)),
     ):
         axes.plot(*at, "o", ms=10, mfc="white", mec=strokes.INK, mew=1.6, zorder=6)
-        axes.annotate(name, at, xytext=aside, textcoords="offset points", fontsize=12, path_effects=strokes.halo(), zorder=9)
+        axes.annotate(
+            name, at, xytext=aside, textcoords="offset points", fontsize=12, path_effects=strokes.halo(), zorder=9
+        )
     elbow = lengths[0] * strokes.unit_vector(t1)
     strokes.arm(plane, [np.zeros(2), elbow, point], strokes.POSTURE_SHADES[0], zorder=4.5, width=8)
 
@@ -198,9 +202,9 @@ def draw_clouds(clouds, lengths=None, limits=None, ax=None, *, size=2.0):
     """
     clouds = {title: np.reshape(points, (-1, 2)) for title, points in clouds.items()}
     if ax is None:
-        ax = plt.subplots(1, len(clouds), figsize=(1 + 3.4 * len(clouds), 3.9), sharex=True, sharey=True, layout="constrained")[
-            1
-        ]
+        ax = plt.subplots(
+            1, len(clouds), figsize=(1 + 3.4 * len(clouds), 3.9), sharex=True, sharey=True, layout="constrained"
+        )[1]
     panels = np.ravel(ax)
     if not clouds or len(panels) != len(clouds):
         raise ValueError(f"ax: expected one Axes for each of the {len(clouds)} clouds, found {len(panels)}")
@@ -226,7 +230,7 @@ def _fill_workspace(ax, lengths, limits, colour="#e3e3e3"):
 def _one_bend(limits) -> list[np.ndarray]:
     """The limits cut where the elbow is straight: within each piece the map from joint values to points is one to one."""
     cuts = [limits[1, 0], *[s for s in _straight_angles(limits[1]) if limits[1, 0] < s < limits[1, 1]], limits[1, 1]]
-    return [np.array([limits[0], piece]) for piece in zip(cuts[:-1], cuts[1:])]
+    return [np.array([limits[0], piece]) for piece in itertools.pairwise(cuts)]
 
 
 def _image_of_rim(lengths, limits, step=0.02) -> np.ndarray:
@@ -398,7 +402,7 @@ def draw_posture_count(lengths, limits, point=None, ax=None):
     mark_edges(ax, lengths, limits)
     if point is not None:
         goal = strokes.as_numbers(point, "point", (2,))
-        for k, (t1, t2) in enumerate(_postures(lengths, limits, goal)):
+        for k, (t1, _t2) in enumerate(_postures(lengths, limits, goal)):
             elbow = lengths[0] * strokes.unit_vector(t1)
             strokes.arm(ax, [np.zeros(2), elbow, goal], ("#f6f6f6", "#c4c4c4")[k], zorder=4 + k, width=8)
         strokes.target_mark(ax, goal)
@@ -448,7 +452,9 @@ def draw_posture_change(lengths, start, end, ax=None):
     for low, bend in ((0, 1), (-180, -1)):
         tint, hatch = SHEETS[bend]
         joints.add_patch(
-            Rectangle((-180, low), 360, 180, facecolor=tint, edgecolor="#ffffff", hatch=hatch, lw=0, alpha=0.75, zorder=0)
+            Rectangle(
+                (-180, low), 360, 180, facecolor=tint, edgecolor="#ffffff", hatch=hatch, lw=0, alpha=0.75, zorder=0
+            )
         )
         strokes.write(joints, (-95, low + 90), rf"aspect $\sin\theta_2 {'>' if bend > 0 else '<'} 0$", fontsize=10)
     for value in (-180, 0, 180):
@@ -579,7 +585,9 @@ def draw_section(lengths, limits, q=None, ax=None, *, names=True):
                 color="#555555",
                 ha="left",
             )
-    ax.plot([0, 0], [-1.08 * outer, 1.12 * outer], color=strokes.AXIS_COLOURS["z"], lw=1.4, ls=strokes.CENTRE_LINE, zorder=2)
+    ax.plot(
+        [0, 0], [-1.08 * outer, 1.12 * outer], color=strokes.AXIS_COLOURS["z"], lw=1.4, ls=strokes.CENTRE_LINE, zorder=2
+    )
     if names:
         strokes.write(ax, (0, 1.17 * outer), "axis 1", fontsize=10, color=strokes.AXIS_COLOURS["z"])
     if q is not None:
@@ -645,7 +653,7 @@ def draw_elbow_workspace(lengths, limits, t1_limits=(np.radians(-210), np.radian
     strips = [turned(rim, angle) for angle in turns]
     walls = [
         [a[k], a[(k + 1) % len(rim)], b[(k + 1) % len(rim)], b[k]]
-        for a, b in zip(strips[:-1], strips[1:])
+        for a, b in itertools.pairwise(strips)
         for k in range(len(rim))
     ]
     ax.add_collection3d(
@@ -655,7 +663,9 @@ def draw_elbow_workspace(lengths, limits, t1_limits=(np.radians(-210), np.radian
     for angle in (low, high):
         face = turned(rim, angle)
         ax.add_collection3d(
-            Poly3DCollection([face], facecolors="#b5b5b5", edgecolors=strokes.INK, linewidths=1.3, alpha=0.8, zorder=1.5),
+            Poly3DCollection(
+                [face], facecolors="#b5b5b5", edgecolors=strokes.INK, linewidths=1.3, alpha=0.8, zorder=1.5
+            ),
             autolim=False,
         )
     top = 1.15 * max(rim[:, 1].max(), 0.2 * lengths.sum())

@@ -24,13 +24,13 @@ from .tables import (
 
 __all__ = [
     "show_cos_theta2",
+    "show_dh_matrix",
     "show_inverse",
     "show_on_planar_arm",
+    "show_on_scara",
     "show_postures",
     "show_reach",
-    "show_theta1",
-    "show_on_scara",
     "show_scara_forward",
-    "show_dh_matrix",
     "show_table",
+    "show_theta1",
 ]

@@ -167,7 +167,9 @@ def show_marks(marks, matrices):
                     ax.add_patch(Rectangle((j - 0.48, top - i - 0.45), 0.96, 0.9, fill=False, ec=YOURS, lw=1.6))
         for x in (-0.5, 3.5):
             inward = 0.08 if x < 0 else -0.08
-            ax.plot([x + inward, x, x, x + inward], [top + 0.5, top + 0.5, top - 3.5, top - 3.5], color=strokes.INK, lw=1)
+            ax.plot(
+                [x + inward, x, x, x + inward], [top + 0.5, top + 0.5, top - 3.5, top - 3.5], color=strokes.INK, lw=1
+            )
     ax.set(xlim=(-1.2, 3.6), ylim=(-5.0 * len(matrices) + 1.3, 0.7))
     return ax
 

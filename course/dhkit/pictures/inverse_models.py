@@ -32,7 +32,9 @@ def show_all_postures(solutions, table, target):
     width = table.__code__.co_argcount - len(table.__defaults__ or ())
     joints = table.__code__.co_varnames[:width]
     solutions = solutions.tolist() if hasattr(solutions, "tolist") else solutions
-    if isinstance(solutions, dict) or len(solutions) == len(entries(solutions)) == width and not isinstance(solutions[0], dict):
+    if isinstance(solutions, dict) or (
+        len(solutions) == len(entries(solutions)) == width and not isinstance(solutions[0], dict)
+    ):
         solutions = [solutions]
     solutions = [[row[name] for name in joints] if isinstance(row, dict) else row for row in solutions]
     rows = numbers(solutions, "solutions", (None, width), {}) if entries(solutions) else []
@@ -169,8 +171,12 @@ def show_free_direction(direction, table, q):
     moved = [table(*(np.array(q) + angle * step)) for angle in (-0.6, -0.2, 0.2, 0.6)]
     hands = np.array([chain_frames(each)[-1] for each in moved])
     far = max(np.linalg.norm(hand[:3, 3] - hands[0, :3, 3]) for hand in hands)
-    turn = max(np.degrees(np.arccos(np.clip((np.trace(hand[:3, :3].T @ hands[0, :3, :3]) - 1) / 2, -1, 1))) for hand in hands)
+    turn = max(
+        np.degrees(np.arccos(np.clip((np.trace(hand[:3, :3].T @ hands[0, :3, :3]) - 1) / 2, -1, 1))) for hand in hands
+    )
     ax = draw_posture_family(moved)
     rest = far < 1e-6 and turn < 1e-3
-    ax.figure.text(0.5, 0.01, "the hand stays" if rest else f"the hand moves: by {far:.3f} m and {turn:.0f}°", ha="center")
+    ax.figure.text(
+        0.5, 0.01, "the hand stays" if rest else f"the hand moves: by {far:.3f} m and {turn:.0f}°", ha="center"
+    )
     return ax

@@ -38,7 +38,10 @@ def show_rotation(answer, axes: str, values: dict[str, float], order: Sequence[s
     ax = draw_gimbal([values[name] for name in order], axes, wanted=matrix)
     rigid = np.allclose(matrix.T @ matrix, np.eye(3), atol=1e-6) and np.linalg.det(matrix) > 0
     _say(
-        ax, COMPARED % ("your matrix", "the rings") if rigid else "your matrix is no rotation: columns of length 1, orthogonal"
+        ax,
+        COMPARED % ("your matrix", "the rings")
+        if rigid
+        else "your matrix is no rotation: columns of length 1, orthogonal",
     )
     return ax
 
@@ -67,7 +70,9 @@ def show_rpy_entries(answer, values: dict[str, float]):
 
 
 @own_result
-def show_triples(answer, axes: str, rotation, order: Sequence[int] = (0, 1, 2), names=None, grey="the wanted orientation"):
+def show_triples(
+    answer, axes: str, rotation, order: Sequence[int] = (0, 1, 2), names=None, grey="the wanted orientation"
+):
     """Triples of angles on the rings, one drawing each, with the axes of another orientation in grey.
 
     Parameters

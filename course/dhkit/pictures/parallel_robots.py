@@ -122,7 +122,9 @@ def show_singular_poses(jacobian, base, platform, phi, view=(-0.6, 1.6, 0.35, 1.
             ax.text(xs[column], ys[row], word, ha="center", va="center", path_effects=halo(), color=INK)
     ax.plot(*np.transpose(base), "o", ms=6, mfc="white", mec=SOFT, mew=1.4, ls="none", clip_on=True)
     ax.set(xlim=view[:2], ylim=view[2:], xlabel="x of P (m)", ylabel="y of P (m)")
-    ax.set_title("singular on the line" if determinants.min() < 0 < determinants.max() else "the sign never changes here")
+    ax.set_title(
+        "singular on the line" if determinants.min() < 0 < determinants.max() else "the sign never changes here"
+    )
     return ax
 
 
@@ -141,7 +143,9 @@ def show_singular(x, base, platform, y, phi=0.0):
     matplotlib Axes
     """
     at = float(numbers(x, "singular", (), {}))
-    return draw_leg_lines(base, platform, [(at, y, phi)], labels=[f"x = {at:.3f} m, y = {y:g} m"], view=(-0.6, 2.0, -0.3, 1.9))
+    return draw_leg_lines(
+        base, platform, [(at, y, phi)], labels=[f"x = {at:.3f} m, y = {y:g} m"], view=(-0.6, 2.0, -0.3, 1.9)
+    )
 
 
 @own_result

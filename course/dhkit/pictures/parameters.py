@@ -7,7 +7,16 @@ import numpy as np
 from .. import strokes
 from ..drawing.chains import Labels, chain_frames, draw_chain, fill_panel
 from ..drawing.rules import add_axis, add_two_axes, common_normal, link_direction, panels_3d
-from ..drawing.scenes import add_frame, finished, gripper_at, new_scene, parallel_scene, reading_scene, shelf_scene, thin_line
+from ..drawing.scenes import (
+    add_frame,
+    finished,
+    gripper_at,
+    new_scene,
+    parallel_scene,
+    reading_scene,
+    shelf_scene,
+    thin_line,
+)
 from .own_result import called, numbers, own_result
 from .tables import say_if_not_rigid
 
@@ -228,7 +237,9 @@ def show_link(link):
     found = []
     for _, (p, u), (q, v) in PAIRS:
         found.append(numbers(called(link, *map(list, (p, u, q, v))), "link", (2,), {}))
-    panels = panels_3d([f"{kind}:  a = {a:.3f},  α = {np.degrees(alpha):.1f}°" for (kind, *_), (a, alpha) in zip(PAIRS, found)])
+    panels = panels_3d(
+        [f"{kind}:  a = {a:.3f},  α = {np.degrees(alpha):.1f}°" for (kind, *_), (a, alpha) in zip(PAIRS, found)]
+    )
     for ax, (_, first, second), (a, alpha) in zip(panels, PAIRS, found):
         labels = Labels()
         lines = [tuple(np.asarray(part, dtype=float) for part in line) for line in (first, second)]

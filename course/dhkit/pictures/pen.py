@@ -107,7 +107,9 @@ def show_circles(radii, sizes: dict[str, float], height: float):
     ax.plot(near[:, 0], near[:, 1], ".", ms=3, color=SOFT, label="tips near the sheet")
     turn = np.linspace(0, 2 * np.pi, 200)
     for radius, dashes in zip(radii, ("-", (0, (5, 2)))):
-        ax.plot(radius * np.cos(turn), radius * np.sin(turn), color=INK, lw=1.5, ls=dashes, label=f"your {radius:.3f} m")
+        ax.plot(
+            radius * np.cos(turn), radius * np.sin(turn), color=INK, lw=1.5, ls=dashes, label=f"your {radius:.3f} m"
+        )
     show_plane(ax)
     ax.margins(0.06)
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, columnspacing=1.2, handlelength=1.6)

@@ -125,7 +125,9 @@ def show_parameters(parameters, values: dict[str, float]):
 
 
 def _moves(kinds, values):
-    return [(kind, values[{"trans_x": "a", "rot_x": "alpha", "trans_z": "d", "rot_z": "theta"}[kind]]) for kind in kinds]
+    return [
+        (kind, values[{"trans_x": "a", "rot_x": "alpha", "trans_z": "d", "rot_z": "theta"}[kind]]) for kind in kinds
+    ]
 
 
 def _with_shadow(moves, shadow, caption):
@@ -133,7 +135,11 @@ def _with_shadow(moves, shadow, caption):
     ax = drawing.draw_walk(moves, size=SIZE)
     drawing.mark_shadow(ax, shadow, SIZE)
     shown = np.vstack(
-        [frame[:3, 3] + reach * frame[:3, :3].T for frame in (*drawing.walk_frames(moves), shadow) for reach in (0, 0.75)]
+        [
+            frame[:3, 3] + reach * frame[:3, :3].T
+            for frame in (*drawing.walk_frames(moves), shadow)
+            for reach in (0, 0.75)
+        ]
     )
     strokes.fit_3d(ax, shown, own=True, pad=0.4)
     ax.figure.text(0.5, 0.02, caption, ha="center", fontsize=9)

@@ -164,7 +164,9 @@ def show_count(count, lengths, limits):
 
 
 def _counted(count, x, y, lengths, limits) -> float:
-    return float(numbers(called(count, float(x), float(y), list(lengths), [list(row) for row in limits]), "count", (), {}))
+    return float(
+        numbers(called(count, float(x), float(y), list(lengths), [list(row) for row in limits]), "count", (), {})
+    )
 
 
 @own_result
