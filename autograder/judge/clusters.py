@@ -147,7 +147,7 @@ class _Form:
         if self.blanks != other.blanks:
             return False
         question = self.question
-        setting = Setting(question.points, question.angles, question.tolerance, question.pinned)
+        setting = Setting(question.samples, question.angles, question.tolerance, question.pinned)
         try:
             with np.errstate(all="ignore"):
                 return KINDS[question.public.kind].compare(question.public, self.value, other.value, setting).equal

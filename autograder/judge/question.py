@@ -156,7 +156,7 @@ class Question:
         return self.id.partition(".")[0]
 
     @cached_property
-    def points(self) -> dict[str, np.ndarray]:
+    def samples(self) -> dict[str, np.ndarray]:
         """Sample values of the symbols: one (12,) array per symbol, the same at every call."""
         rng = np.random.default_rng(_seed(self.id))
         draw = self.draw or (lambda rng: {name: _independent(name, rng) for name in self.public.symbols})

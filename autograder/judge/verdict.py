@@ -179,7 +179,7 @@ def _follows(question: Question, student: object, setting: Setting, earlier: Map
         answer = KINDS[before.kind].read(before, decode_answer(earlier[before.id].bundle, before.id))
     except Malformed:
         return False
-    values = answer.values(question.points)
+    values = answer.values(question.samples)
     if not np.isfinite(values).all():
         return False
     with np.errstate(all="ignore"):
@@ -317,7 +317,7 @@ def _setting(question: Question, variant: Variant, args: list | tuple | None = (
     """How answers are compared; without `args` nobody asks how far a solution misses its target."""
     asked = question.misses is not None and args is not None
     misses = (lambda q: question.misses(q, variant, *args)) if asked else None
-    return Setting(question.points, question.angles, question.tolerance, question.pinned, misses=misses)
+    return Setting(question.samples, question.angles, question.tolerance, question.pinned, misses=misses)
 
 
 @lru_cache(maxsize=4096)

@@ -1,6 +1,7 @@
-"""The private half of every exercise: one module each, with references and response trees.
+"""The private half of every exercise: a package each, with references and response trees.
 
-A module lists its questions in ``QUESTIONS``; being in this folder is all the registration there is.
+A package lists its questions in ``QUESTIONS``; being in this folder is all the registration there is. What several
+exercises need stands in `shared`, which asks nothing.
 """
 
 from __future__ import annotations
@@ -15,13 +16,13 @@ from autograder.judge import Question
 
 def names() -> list[str]:
     """The exercises there are."""
-    return sorted(module.name for module in pkgutil.iter_modules(__path__))
+    return sorted(name for name in _modules() if of_exercise(name))
 
 
 @cache
 def of_exercise(name: str) -> tuple[Question, ...]:
-    """The questions of one exercise, in the order of its module."""
-    return importlib.import_module(f"{__name__}.{name}").QUESTIONS
+    """The questions of one exercise, in the order of its package; none where a package asks nothing."""
+    return getattr(importlib.import_module(f"{__name__}.{name}"), "QUESTIONS", ())
 
 
 def exercises() -> dict[str, tuple[Question, ...]]:
@@ -32,9 +33,13 @@ def exercises() -> dict[str, tuple[Question, ...]]:
 def find(id: str) -> Question:
     """The question called `id`; a `KeyError` names the nearest ones."""
     exercise = id.partition(".")[0]
-    known = {question.id: question for name in names() if name == exercise for question in of_exercise(name)}
+    known = {question.id: question for question in of_exercise(exercise)} if exercise in _modules() else {}
     try:
         return known[id]
     except KeyError:
         near = difflib.get_close_matches(id, known or names(), n=3) or list(known) or names()
         raise KeyError(f"there is no question {id!r}; there are {', '.join(near)}") from None
+
+
+def _modules() -> list[str]:
+    return [module.name for module in pkgutil.iter_modules(__path__)]

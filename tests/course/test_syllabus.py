@@ -17,7 +17,7 @@ from dhkit.public import KINDS, questions
 
 ROOT = Path(__file__).parents[2]
 TOPICS = tomllib.loads((ROOT / "docs/syllabus.toml").read_text())["topic"]
-MODULES = [ast.parse(file.read_text()) for file in (ROOT / "autograder/questions").glob("*.py")]
+MODULES = [ast.parse(file.read_text()) for file in (ROOT / "autograder/questions").rglob("*.py")]
 # Robots that questions make with lengths or readings of their own.
 MADE_BY = {"planar": {"PLANAR_4R"}, "pen": {"PEN_A", "PEN_B", "PEN_C"}, "scara_centres": {"SCARA_EPFL"}}
 

@@ -230,7 +230,7 @@ def test_two_tables_without_any_joint_are_compared_cell_by_cell(rows):
         KINDS["dh_table"].read(form, decode_answer(wire.bundle(form.id, answer=wire.encode(each)), form.id))
         for each in (rows, [[0, 7, 0, 0, 0]] * 4)
     )
-    assert not KINDS["dh_table"].compare(form, student, other, Setting(find(form.id).points)).equal
+    assert not KINDS["dh_table"].compare(form, student, other, Setting(find(form.id).samples)).equal
 
 
 # ---------------------------------------------------------------- orientations, directions, clouds, transforms

@@ -143,7 +143,7 @@ def perturbed(question, rng):
 def still_right(question, reference, changed):
     """Whether a changed entry leaves the meaning as it was, found without the judge's own algebra."""
     kind, form = question.public.kind, question.public
-    values = {name: float(value[0]) for name, value in question.points.items()}
+    values = {name: float(value[0]) for name, value in question.samples.items()}
     if kind in ("direction", "orientation", "dh_table"):
         names = list({*form.symbols, *form.joints})
         rng = np.random.default_rng(0)

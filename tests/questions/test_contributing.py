@@ -36,7 +36,7 @@ def copy(tmp_path_factory):
     shutil.copy(ROOT / "nbgrader_config.py", root)
     with (root / "course/dhkit/questions/planar_2r.toml").open("a") as file:
         file.write("\n" + TOML[0])
-    with (root / "autograder/questions/planar_2r.py").open("a") as file:
+    with (root / "autograder/questions/planar_2r/__init__.py").open("a") as file:
         file.write("\n" + PRIVATE)
     return root
 

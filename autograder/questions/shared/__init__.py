@@ -1,0 +1,1 @@
+"""What the questions of several exercises need: one module per subject."""
