@@ -30,9 +30,8 @@ LIMITS = {
     "memory": (_bytes, "1G", "memory for one notebook, all its processes together"),
     "processes": (_positive, "128", "processes and threads of one notebook"),
     "file-size": (_bytes, "64M", "size a file may grow to"),
-    "cpu-seconds": (_positive, "120", "processor time of one process"),
-    "cell-seconds": (_seconds, "30", "time for one cell"),
-    "notebook-seconds": (_seconds, "120", "time for one notebook"),
+    "cell-seconds": (_seconds, "30", "processor time for one cell"),
+    "notebook-seconds": (_seconds, "120", "processor time for one notebook"),
     "output-bytes": (_bytes, "1M", "output of one notebook"),
 }
 

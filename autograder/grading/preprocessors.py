@@ -45,14 +45,13 @@ class SandboxExecute(NbGraderPreprocessor):
     memory = Integer(_LIMITS.memory, help="Bytes of memory for the whole sandbox.").tag(config=True)
     processes = Integer(_LIMITS.processes, help="Processes and threads.").tag(config=True)
     file_size = Integer(_LIMITS.file_size, help="Bytes a file may grow to.").tag(config=True)
-    cpu_seconds = Integer(_LIMITS.cpu_seconds, help="Processor seconds.").tag(config=True)
     cell_seconds = Float(_LIMITS.cell_seconds, help="Seconds for one cell.").tag(config=True)
     notebook_seconds = Float(_LIMITS.notebook_seconds, help="Seconds for one notebook.").tag(config=True)
     output_bytes = Integer(_LIMITS.output_bytes, help="Bytes of output of one notebook.").tag(config=True)
 
     @property
     def limits(self) -> Limits:
-        names = ("memory", "processes", "file_size", "cpu_seconds", "cell_seconds", "notebook_seconds", "output_bytes")
+        names = ("memory", "processes", "file_size", "cell_seconds", "notebook_seconds", "output_bytes")
         return Limits(**{name: getattr(self, name) for name in names})
 
     def preprocess(self, nb: NotebookNode, resources: dict) -> tuple[NotebookNode, dict]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import functools
 import importlib.util
 import marshal
+import math
 import os
 import random
 import shutil
@@ -193,7 +194,8 @@ def resource_limits(limits: Limits, uid: int | None) -> dict[str, tuple[int, int
     }
     bounds = {name: (value, value) for name, value in same.items()}
     # At the soft limit comes SIGXCPU, by which the cause is known afterwards.
-    return bounds | {"RLIMIT_CPU": (limits.cpu_seconds, limits.cpu_seconds + 5)}
+    seconds = math.ceil(limits.notebook_seconds)
+    return bounds | {"RLIMIT_CPU": (seconds, seconds + 5)}
 
 
 def namespaces(uid: int | None) -> list[str]:

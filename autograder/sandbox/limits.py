@@ -1,31 +1,45 @@
-"""What one run of one notebook may use."""
+"""What one run of one notebook may use: the one place where a limit is named, explained and given its default."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
+from typing import Any, Literal
+
+Unit = Literal["bytes", "seconds", "count"]
+
+
+def _limit(default: float, unit: Unit, help: str) -> Any:
+    return field(default=default, metadata={"unit": unit, "help": help})
 
 
 @dataclass(frozen=True)
 class Limits:
-    """Bounds of one sandbox; bytes and seconds.
+    """Bounds of one sandbox, all its processes together.
 
-    ``memory`` holds for the whole sandbox (all processes, private file systems
-    included); an allocation beyond it fails with MemoryError in the process
-    that asks.  ``disk`` is the size of each private file system (home with the
-    work folder, /tmp, /dev/shm).  ``cpu_seconds`` counts per process.
-    ``output_bytes`` is what the outputs of one notebook may add up to while
-    they stream; each cell is left an eighth of it whatever was used before.
+    The metadata of each field holds its ``unit`` ("bytes", "seconds" or "count") and ``help``, a short text for
+    ``--help``. An allocation beyond `memory` fails with MemoryError in the process that asks. However much of
+    `output_bytes` was used before, each cell is left an eighth of it.
+
+    Raises
+    ------
+    ValueError
+        If a limit is not a positive number.
     """
 
-    memory: int = 1 << 30
-    processes: int = 128
-    file_size: int = 64 << 20
-    open_files: int = 256
-    disk: int = 64 << 20
-    cpu_seconds: int = 120
-    cell_seconds: float = 30.0
-    notebook_seconds: float = 120.0
-    output_bytes: int = 1 << 20
+    memory: int = _limit(1 << 30, "bytes", "memory for one notebook, files in its private folders included")
+    processes: int = _limit(128, "count", "processes and threads of one notebook")
+    file_size: int = _limit(64 << 20, "bytes", "size a file may grow to")
+    open_files: int = _limit(256, "count", "files that one process may hold open")
+    disk: int = _limit(64 << 20, "bytes", "size of each private folder: home, /tmp and /dev/shm")
+    cell_seconds: float = _limit(30.0, "seconds", "processor time for one cell")
+    notebook_seconds: float = _limit(120.0, "seconds", "processor time for one notebook")
+    output_bytes: int = _limit(1 << 20, "bytes", "output of one notebook")
+
+    def __post_init__(self) -> None:
+        for limit in fields(self):
+            value = getattr(self, limit.name)
+            if not 0 < value < float("inf"):
+                raise ValueError(f"{limit.name} must be a positive number of {limit.metadata['unit']}, not {value!r}")
 
     @property
     def message_bytes(self) -> int:

@@ -263,7 +263,7 @@ class SandboxProvisioner(LocalProvisioner):
         if self.memory_exceeded:
             return "memory", f"used more than {self.limits.memory >> 20} MiB of memory and was stopped"
         if self.exit_status == XCPU_STATUS:
-            return "died", f"used up its {self.limits.cpu_seconds} s of processor time"
+            return "died", f"used up its {self.limits.notebook_seconds:g} s of processor time"
         if self.watch is not None and self.watch.held > self.limits.memory * 3 // 4:
             # Where memory is full, libraries below Python end the process instead of raising MemoryError.
             return "memory", f"the kernel ended with {self.watch.held >> 20} MiB of memory in use"
