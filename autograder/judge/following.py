@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .axes import transforms
+from .chain import transforms
 
 
 def product_of_table(rows: np.ndarray) -> np.ndarray:

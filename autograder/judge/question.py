@@ -12,7 +12,7 @@ import numpy as np
 
 from dhkit import public, variants
 
-from .chains import SAME_MODEL
+from .chain import SAME_MODEL
 
 Draw = Callable[[np.random.Generator], dict[str, float]]
 Step = Callable[[object], object]

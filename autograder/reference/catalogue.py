@@ -18,10 +18,10 @@ import sympy as sp
 from . import singularities
 from .elbow import ElbowArm, WristAlone, WristedArm
 from .elementary import rot_y, rot_z, trans_x, trans_z
-from .horizontal import PlanarArm, Scara
 from .inverse import TOLERANCE, InverseModel
 from .parallel import ThreeRPR, ThreeRRR
 from .pen import PenArm
+from .planar_arms import PlanarArm, Scara
 from .solutions import Batch, Nearest, Solutions
 from .tables import DHTable
 from .urdf import UrdfJoint

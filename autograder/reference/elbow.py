@@ -15,7 +15,9 @@ from typing import NamedTuple
 import numpy as np
 
 from .inverse import Answer, InverseModel, JointMap, outside_limits, translations
-from .planar import (
+from .solutions import BEYOND, INSIDE, LIMITED, NOTHING, OFF, SHORT
+from .tables import DHTable
+from .two_link import (
     FOLDED,
     FOLDED_LINE,
     FREE_FIRST,
@@ -28,8 +30,6 @@ from .planar import (
     two_link,
     unit,
 )
-from .solutions import BEYOND, INSIDE, LIMITED, NOTHING, OFF, SHORT
-from .tables import DHTable
 
 _ALIGNED = 1e-9  # sine of the angle between axes 4 and 6 under which they count as aligned
 

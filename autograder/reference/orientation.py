@@ -18,7 +18,7 @@ from itertools import product
 
 import numpy as np
 
-from .planar import wrap
+from .two_link import wrap
 
 EULER_SETS = tuple("".join(s) for s in product("xyz", repeat=3) if s[0] != s[1] != s[2])
 """The twelve sequences without two equal neighbours."""

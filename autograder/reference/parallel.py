@@ -18,7 +18,7 @@ from itertools import product
 import numpy as np
 
 from .equations import DOUBLE, INFINITE, NONE, SOLVED, Roots, type8
-from .planar import wrap
+from .two_link import wrap
 
 # In lengths scaled to 1. An error e of a merged mode shows as e^2 in the leg lengths: hence
 # the square between the first two.

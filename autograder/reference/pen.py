@@ -12,9 +12,9 @@ import numpy as np
 
 from .elbow import ArmGeometry
 from .inverse import Answer, InverseModel, outside_limits, translations
-from .planar import FREE_FIRST, FREE_LINE, FREE_PLANE, SIDEWAYS, wrap
 from .solutions import INSIDE, LIMITED, NOTHING, OFF
 from .tables import DHTable
+from .two_link import FREE_FIRST, FREE_LINE, FREE_PLANE, SIDEWAYS, wrap
 
 
 class PenArm(InverseModel):

@@ -7,7 +7,7 @@ import numpy as np
 from dhkit.forms import array_shape
 from dhkit.public import DH_COLUMNS, PublicQuestion
 
-from ..chains import SAME_MODEL, Chain, NotAChain, same_chain
+from ..chain import SAME_MODEL, JudgedChain, NotAChain, same_chain
 from .base import Comparison, Setting, describe, in_order, refuse
 from .entries import Entries, agreement, checked, flat
 
@@ -41,10 +41,10 @@ def compare_table(question: PublicQuestion, student: Entries, other: Entries, se
     return Comparison(False, 1.0, match.remarks, "same_chain_other_frames")
 
 
-def _chain(entries: Entries, question: PublicQuestion, setting: Setting) -> Chain | None:
-    def read() -> Chain | None:
+def _chain(entries: Entries, question: PublicQuestion, setting: Setting) -> JudgedChain | None:
+    def read() -> JudgedChain | None:
         try:
-            chain = Chain.of_entries(entries.expressions, question.joints, setting.points)
+            chain = JudgedChain.of_entries(entries.expressions, question.joints, setting.points)
         except NotAChain:
             return None
         return chain if chain.joints else None
@@ -52,7 +52,7 @@ def _chain(entries: Entries, question: PublicQuestion, setting: Setting) -> Chai
     return entries.once("chain", setting.points, read)
 
 
-def _ends_apart(mine: Chain, theirs: Chain, setting: Setting) -> bool:
+def _ends_apart(mine: JudgedChain, theirs: JudgedChain, setting: Setting) -> bool:
     """A cheap no: where base, tool and joint variables are pinned, the hands must be in the same place at q = 0."""
     if not setting.pinned >= SAME_MODEL:
         return False

@@ -6,7 +6,7 @@ import numpy as np
 import sympy
 
 from autograder.judge import Question, mistake
-from autograder.judge.alignment import Freedom
+from autograder.judge.chain import Freedom
 from autograder.judge.misconceptions import (
     degrees,
     degrees_in_table,

@@ -8,7 +8,7 @@ import numpy as np
 import sympy
 
 from autograder.judge import Made, Question, mistake
-from autograder.judge.axes import transforms
+from autograder.judge.chain import transforms
 from autograder.judge.misconceptions import (
     arguments_in_degrees,
     misprint,

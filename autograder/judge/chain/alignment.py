@@ -23,7 +23,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .axes import Chain, cross
+from .frames import JudgedChain, cross
 
 _RANK = 1e-7
 _NEAR = 1e-9
@@ -104,7 +104,9 @@ def segments(prismatic: tuple[bool, ...]) -> list[Segment]:
     return [*found, Segment(entry, tuple(sliders), None)]
 
 
-def align(student: Chain, reference: Chain, senses: np.ndarray, price: Price, tolerance: float) -> Alignment | Parted:
+def align(
+    student: JudgedChain, reference: JudgedChain, senses: np.ndarray, price: Price, tolerance: float
+) -> Alignment | Parted:
     """The cheapest way to lay `student` on `reference`, joint types being the same.
 
     senses: (n,) with +1 or -1 where the sense of an axis is prescribed, 0 where it is not.
@@ -143,7 +145,9 @@ class _Node:
 
 
 class _Pair:
-    def __init__(self, student: Chain, reference: Chain, senses: np.ndarray, price: Price, tolerance: float) -> None:
+    def __init__(
+        self, student: JudgedChain, reference: JudgedChain, senses: np.ndarray, price: Price, tolerance: float
+    ) -> None:
         self.student, self.reference, self.prescribed, self.price = student, reference, senses, price
         self.tolerance = tolerance
         self.length_tolerance = tolerance * max(
@@ -525,7 +529,7 @@ def _transposed(matrices: np.ndarray) -> np.ndarray:
     return np.swapaxes(matrices, -1, -2)
 
 
-def _across(chain: Chain, segment: Segment) -> np.ndarray:
+def _across(chain: JudgedChain, segment: Segment) -> np.ndarray:
     """From the first axis of a segment to its last one, at right angles to the first, (K, 3)."""
     axis = chain.axes[:, segment.entry]
     between = chain.origins[:, segment.exit] - chain.origins[:, segment.entry]

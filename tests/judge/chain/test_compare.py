@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 import sympy
 
-from autograder.judge.axes import Chain, NotAChain
-from autograder.judge.chains import SAME_MODEL, Freedom, same_chain
+from autograder.judge.chain import SAME_MODEL, Freedom, JudgedChain, NotAChain, same_chain
 from autograder.judge.decode import Call, Number, Symbol, decode_answer
 from autograder.reference import robots
 from dhkit.wire import bundle, encode
@@ -410,7 +409,7 @@ def entries(table):
 
 
 def chain(table):
-    return Chain.of_entries(entries(table), [f"q{j + 1}" for j in range(table.coupling.shape[1])], {})
+    return JudgedChain.of_entries(entries(table), [f"q{j + 1}" for j in range(table.coupling.shape[1])], {})
 
 
 def maps_model(match, student, reference, rng):
@@ -582,7 +581,7 @@ def decoded(rows):
 
 
 def read(rows, joints, lengths=LENGTHS):
-    return Chain.of_entries(decoded(rows), joints, lengths)
+    return JudgedChain.of_entries(decoded(rows), joints, lengths)
 
 
 def against_scara(rows, **options):
@@ -648,7 +647,7 @@ def test_the_sign_of_a_skew_twist_is_told():
 
 
 def test_the_printed_puma_parts_at_its_last_joint():
-    printed, right = (Chain.of_table(getattr(robots, name).table) for name in ("PUMA_PRINTED", "PUMA"))
+    printed, right = (JudgedChain.of_table(getattr(robots, name).table) for name in ("PUMA_PRINTED", "PUMA"))
     match = same_chain(printed, right)
     assert not match.equal
     assert str(match.parting) == "joint 6: twist from Z5 0 deg instead of 90 deg"
@@ -723,16 +722,16 @@ def test_kr210_with_another_base_tool_and_zero():
     letters = robots.KR210.table
     rows = [[row.sigma, *(entry.subs(letters.values) for entry in row.parameters)] for row in letters.rows]
     joints = [joint.name for joint in letters.joints]
-    bare = same_chain(read(rows, joints), Chain.of_table(letters))
+    bare = same_chain(read(rows, joints), JudgedChain.of_table(letters))
     assert bare.equal and named(bare) == {"tool frame"}
     no_offset = same_chain(
-        read(changed(changed(rows, 2, "theta", letters.joints[1]), 1, "d", 0), joints), Chain.of_table(letters)
+        read(changed(changed(rows, 2, "theta", letters.joints[1]), 1, "d", 0), joints), JudgedChain.of_table(letters)
     )
     assert no_offset.equal and named(no_offset) == {"base frame", "zero of joint 2", "tool frame"}
 
 
 def test_coupled_joints_are_compared_as_they_are_coupled():
-    table = {name: Chain.of_table(getattr(robots, name).table) for name in ("PEN", "PEN_A", "PEN_B")}
+    table = {name: JudgedChain.of_table(getattr(robots, name).table) for name in ("PEN", "PEN_A", "PEN_B")}
     assert not same_chain(table["PEN"], table["PEN_A"]).equal
     match = same_chain(table["PEN_B"], table["PEN_A"])
     assert match.equal and named(match) == {"zero of joint 2"}
@@ -764,7 +763,7 @@ def test_a_difference_at_one_sample_point_is_enough():
 
 
 def test_twelve_joints_with_free_senses_are_no_exponential_search(monkeypatch):
-    from autograder.judge import alignment
+    from autograder.judge.chain import alignment
 
     steps = 0
     met = alignment._Demands.met

@@ -9,7 +9,9 @@ from __future__ import annotations
 import numpy as np
 
 from .inverse import Answer, InverseModel, JointMap, outside_limits, translations
-from .planar import (
+from .solutions import BEYOND, LIMITED, NOTHING, OFF, SHORT, TILTED
+from .tables import DHTable
+from .two_link import (
     FOLDED,
     FREE_CHAIN,
     FREE_PLANE,
@@ -19,8 +21,6 @@ from .planar import (
     unit,
     wrap,
 )
-from .solutions import BEYOND, LIMITED, NOTHING, OFF, SHORT, TILTED
-from .tables import DHTable
 
 
 class PlanarArm(InverseModel):

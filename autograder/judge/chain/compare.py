@@ -9,9 +9,7 @@ from itertools import pairwise, product
 import numpy as np
 
 from .alignment import Alignment, Freedom, Parted, Price, Segment, align, segments
-from .axes import MAX_JOINTS, Chain, NotAChain, cross
-
-__all__ = ["SAME_MODEL", "Chain", "ChainMatch", "Freedom", "NotAChain", "Parting", "Used", "same_chain"]
+from .frames import MAX_JOINTS, JudgedChain, cross
 
 TOLERANCE = 1e-6
 
@@ -111,7 +109,7 @@ class ChainMatch:
 
 
 def same_chain(
-    student: Chain, reference: Chain, *, pinned: Collection[str] = (), tolerance: float = TOLERANCE
+    student: JudgedChain, reference: JudgedChain, *, pinned: Collection[str] = (), tolerance: float = TOLERANCE
 ) -> ChainMatch:
     """Compare two chains given at the same sample points.
 
@@ -164,14 +162,14 @@ _NAMES = frozenset(map(str, Freedom)) | {
 }
 
 
-def _at_same_points(student: Chain, reference: Chain) -> tuple[Chain, Chain]:
+def _at_same_points(student: JudgedChain, reference: JudgedChain) -> tuple[JudgedChain, JudgedChain]:
     """Both chains at all sample points; a table without symbols is the same at all of them."""
     counts = {len(student.end), len(reference.end)} - {1}
     if len(counts) > 1 or student.variables != reference.variables:
         raise ValueError("the chains are not given at the same sample points, for the same joint variables")
     count = counts.pop() if counts else 1
 
-    def spread(chain: Chain) -> Chain:
+    def spread(chain: JudgedChain) -> JudgedChain:
         if len(chain.end) == count:
             return chain
         frames, end = (np.repeat(array, count, axis=0) for array in (chain.frames, chain.end))
@@ -180,7 +178,7 @@ def _at_same_points(student: Chain, reference: Chain) -> tuple[Chain, Chain]:
     return spread(student), spread(reference)
 
 
-def _common_part(student: Chain, reference: Chain) -> tuple[int, Parting | None]:
+def _common_part(student: JudgedChain, reference: JudgedChain) -> tuple[int, Parting | None]:
     """How many joints from the base are of the same type, moved by the same variables; and what the next one is."""
     for i in range(max(student.joints, reference.joints)):
         kinds = [_kind(chain, i) for chain in (student, reference)]
@@ -191,19 +189,19 @@ def _common_part(student: Chain, reference: Chain) -> tuple[int, Parting | None]
     return reference.joints, None
 
 
-def _kind(chain: Chain, joint: int) -> str:
+def _kind(chain: JudgedChain, joint: int) -> str:
     if joint >= chain.joints:
         return "no joint"
     return "prismatic" if chain.prismatic[joint] else "revolute"
 
 
-def _moved_by(chain: Chain, joint: int) -> str:
+def _moved_by(chain: JudgedChain, joint: int) -> str:
     terms = [(c, name) for c, name in zip(chain.coupling[joint], chain.variables, strict=True) if c]
     text = " ".join(f"{'-' if c < 0 else '+'} {'' if abs(c) == 1 else f'{abs(c):.4g} '}{name}" for c, name in terms)
     return f"moved by {text.removeprefix('+ ').replace('- ', '-', text.startswith('-'))}"
 
 
-def _best(student: Chain, reference: Chain, price: Price, tolerance: float) -> Alignment | Parted | None:
+def _best(student: JudgedChain, reference: JudgedChain, price: Price, tolerance: float) -> Alignment | Parted | None:
     """An alignment, or how far one gets; None if joint variables are combined with signs that cannot be matched."""
     results = [align(student, reference, senses, price, tolerance) for senses in _prescribed(student, reference)]
     found = [result for result in results if isinstance(result, Alignment)]
@@ -212,7 +210,7 @@ def _best(student: Chain, reference: Chain, price: Price, tolerance: float) -> A
     return max(results, key=lambda parted: parted.segment.directions[0], default=None)
 
 
-def _prescribed(student: Chain, reference: Chain) -> Iterator[np.ndarray]:
+def _prescribed(student: JudgedChain, reference: JudgedChain) -> Iterator[np.ndarray]:
     """Senses of the axes, (n,), 0 where free: joints that share a variable cannot be reversed one by one.
 
     Joint i moves by ``C_ref[i] (s q)`` in the reference and by ``S_i C[i] q`` in the student's chain, S_i its sense.
@@ -244,7 +242,7 @@ def _prescribed(student: Chain, reference: Chain) -> Iterator[np.ndarray]:
         yield senses
 
 
-def _match(student: Chain, reference: Chain, found: Alignment, pins: _Pins, tolerance: float) -> ChainMatch:
+def _match(student: JudgedChain, reference: JudgedChain, found: Alignment, pins: _Pins, tolerance: float) -> ChainMatch:
     strokes = _strokes(reference, found)
     offsets = strokes @ np.linalg.pinv(reference.coupling).T
     unmet = np.abs(offsets @ reference.coupling.T - strokes)
@@ -263,7 +261,7 @@ def _match(student: Chain, reference: Chain, found: Alignment, pins: _Pins, tole
     return ChainMatch(not held, *map_, used, held)
 
 
-def _strokes(reference: Chain, found: Alignment) -> np.ndarray:
+def _strokes(reference: JudgedChain, found: Alignment) -> np.ndarray:
     """How far each joint of the reference has moved where the student's is at zero, (K, n)."""
     strokes = np.empty((len(reference.end), reference.joints))
     for i, slides in enumerate(reference.prismatic):
@@ -288,7 +286,7 @@ def _rigid(rotation: np.ndarray, shift: np.ndarray) -> np.ndarray:
 
 
 def _used(
-    student: Chain, reference: Chain, found: Alignment, signs, offsets, base, tool, tolerance: float
+    student: JudgedChain, reference: JudgedChain, found: Alignment, signs, offsets, base, tool, tolerance: float
 ) -> Iterator[Used]:
     """What the tables differ in, measured on the motions found."""
     lengths = tolerance * max(1.0, np.abs(reference.end[:, :3, 3]).max(), np.abs(reference.origins).max(initial=0))
@@ -327,7 +325,7 @@ def _used(
             yield Used(Freedom.AXIS, i + 1)
 
 
-def _parting(student: Chain, reference: Chain, parted: Parted | None, tolerance: float) -> Parting:
+def _parting(student: JudgedChain, reference: JudgedChain, parted: Parted | None, tolerance: float) -> Parting:
     """Puts a dead end into words: the first quantity between the joints of the segment that is not the reference's."""
     if parted is None:
         coupled = (reference.coupling != 0).sum(axis=1) > 1
@@ -358,13 +356,13 @@ def _parting(student: Chain, reference: Chain, parted: Parted | None, tolerance:
     return Parting(before + 1, f"offset along Z{before + 1}", *_plain(sense * found, expected))
 
 
-def _twist(chain: Chain, before: int, joint: int) -> np.ndarray:
+def _twist(chain: JudgedChain, before: int, joint: int) -> np.ndarray:
     """Angle between two axes, 0 to pi, (K,)."""
     first, second = chain.axes[:, before], chain.axes[:, joint]
     return np.arctan2(np.linalg.norm(cross(first, second), axis=-1), (first * second).sum(axis=-1))
 
 
-def _distance(chain: Chain, before: int, joint: int) -> np.ndarray:
+def _distance(chain: JudgedChain, before: int, joint: int) -> np.ndarray:
     """Distance between two axes, along the vector product of the two unless they are parallel, (K,)."""
     first, second = chain.axes[:, before], chain.axes[:, joint]
     between = chain.origins[:, joint] - chain.origins[:, before]
@@ -374,7 +372,7 @@ def _distance(chain: Chain, before: int, joint: int) -> np.ndarray:
     return np.where(sine > _PARALLEL, (between * normal).sum(axis=-1) / sine, across)
 
 
-def _foot(chain: Chain, joint: int, other: int) -> np.ndarray | None:
+def _foot(chain: JudgedChain, joint: int, other: int) -> np.ndarray | None:
     """Foot, on the axis of `joint`, of its common normal with the axis of `other`, (K, 3); None if they are parallel."""
     axis, away = chain.axes[:, joint], chain.axes[:, other]
     cosine = (axis * away).sum(axis=-1)
@@ -385,7 +383,7 @@ def _foot(chain: Chain, joint: int, other: int) -> np.ndarray | None:
     return chain.origins[:, joint] + along[:, None] * axis
 
 
-def _offset(chain: Chain, segment: Segment) -> np.ndarray | None:
+def _offset(chain: JudgedChain, segment: Segment) -> np.ndarray | None:
     """Along the first axis of a segment, from the common normal before it to the one after it, (K,).
 
     The normal before is carried over from the last axis that is not parallel; None where there is none, or where a

@@ -16,8 +16,8 @@ import numpy as np
 from dhkit import wire
 from dhkit.public import DH_COLUMNS
 
-from .decode import Expression, Number, decode_answer
-from .evaluate import evaluate, symbols
+from ..decode import Expression, Number, decode_answer
+from ..evaluate import evaluate, symbols
 
 if TYPE_CHECKING:
     from autograder.reference import DHTable
@@ -39,7 +39,7 @@ class NotAChain(ValueError):
 
 
 @dataclass(frozen=True, eq=False)
-class Chain:
+class JudgedChain:
     """A serial chain at K sample points of its lengths (one point where all lengths are numbers).
 
     Attributes
@@ -63,7 +63,9 @@ class Chain:
     end: np.ndarray
 
     @classmethod
-    def of_entries(cls, entries: Sequence[object], joints: Sequence[str], points: Mapping[str, np.ndarray]) -> Chain:
+    def of_entries(
+        cls, entries: Sequence[object], joints: Sequence[str], points: Mapping[str, np.ndarray]
+    ) -> JudgedChain:
         """From decoded entries, row after row of (sigma, a, alpha, d, theta).
 
         `joints` names the joint variables in order; `points` gives the other symbols their values, one (K,) array
@@ -77,7 +79,7 @@ class Chain:
         return cls._of_rows(values.joints, rows)
 
     @classmethod
-    def of_table(cls, table: DHTable, points: Mapping[str, np.ndarray] | None = None) -> Chain:
+    def of_table(cls, table: DHTable, points: Mapping[str, np.ndarray] | None = None) -> JudgedChain:
         """From a table of the reference solver, base and tool included; by default at the table's own values."""
         points = points or {name: np.array([value], float) for name, value in table.values.items()}
 
@@ -93,7 +95,7 @@ class Chain:
         return replace(chain, frames=base[:, None] @ chain.frames, end=base @ chain.end @ tool)
 
     @classmethod
-    def _of_rows(cls, variables: tuple[str, ...], rows: list[tuple]) -> Chain:
+    def _of_rows(cls, variables: tuple[str, ...], rows: list[tuple]) -> JudgedChain:
         coefficients = np.array([row[0] for row in rows])
         driven = np.flatnonzero(coefficients.any(axis=1))
         if len(driven) > MAX_JOINTS:
@@ -111,10 +113,10 @@ class Chain:
         """Number n of joints."""
         return len(self.prismatic)
 
-    def first(self, count: int) -> Chain:
+    def first(self, count: int) -> JudgedChain:
         """The chain up to and including joint number `count`, its frame the end."""
         used = slice(0, count)
-        return Chain(
+        return JudgedChain(
             self.variables, self.prismatic[used], self.coupling[used], self.frames[:, used], self.frames[:, count - 1]
         )
 
