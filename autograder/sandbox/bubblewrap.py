@@ -237,14 +237,16 @@ def start(
         "env": kernel_environment(),
     }
     arguments = [*namespaces(uid), *mounts(limits, hidden)]
-    filters = seccomp.program()
+    try:
+        filters = seccomp.program()
+    except seccomp.NoFilter as reason:
+        raise SandboxUnavailable(f"{reason}; grade on one of those") from None
     with (
         handed_over(marshal.dumps(plan), folder) as plan_file,
-        handed_over(filters or b"", folder) as filter_file,
+        handed_over(filters, folder) as filter_file,
         tempfile.TemporaryFile(dir=folder) as argument_file,
     ):
-        if filters is not None:
-            arguments += ["--seccomp", str(filter_file.fileno())]
+        arguments += ["--seccomp", str(filter_file.fileno())]
         argument_file.write(b"\0".join(os.fsencode(word) for word in arguments) + b"\0")
         argument_file.seek(0)
         enter = Path(__file__).with_name("enter.py").read_text()

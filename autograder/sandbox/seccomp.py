@@ -3,7 +3,9 @@
 Closed are new namespaces and mounts (they would undo the read-only system and
 the size limits), memory that belongs to no process or file system we count
 (memfd, System V), looking into other processes, and kernel interfaces with a
-long record of holes.  They fail with EPERM, an ordinary OSError.
+long record of holes. They fail with EPERM, an ordinary OSError. Sockets are
+left only in families that a network namespace holds: AF_VSOCK, which none
+holds, would lead out of a virtual machine to its host.
 """
 
 from __future__ import annotations
@@ -115,12 +117,14 @@ CLOSED = {
     },
 }
 CLONE = {"x86_64": 56, "aarch64": 220}
+SOCKET = {"x86_64": 41, "aarch64": 198}
 IOCTL = {"x86_64": 16, "aarch64": 29}
 CLONE3 = 435
 AUDIT_ARCH = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}
 X32_BIT = 0x40000000
 
 NEW_NAMESPACES = 0x7E020080  # CLONE_NEWUSER, NEWPID, NEWNET, NEWIPC, NEWUTS, NEWCGROUP, NEWNS, NEWTIME
+SOCKET_FAMILIES = (1, 2, 10, 16)  # AF_UNIX, AF_INET, AF_INET6, AF_NETLINK
 NETWORK_IOCTLS = 0x8900  # SIOC*: the inherited sockets belong to the host's network namespace
 
 LOAD, JUMP_EQ, JUMP_GE, JUMP_SET, AND, RETURN = 0x20, 0x15, 0x35, 0x45, 0x54, 0x06
@@ -128,13 +132,30 @@ NUMBER, ARCH, FIRST_ARGUMENT, SECOND_ARGUMENT = 0, 4, 16, 24
 ALLOW, KILL, ERRNO = 0x7FFF0000, 0x80000000, 0x00050000
 
 
-def program(machine: str | None = None) -> bytes | None:
-    """The filter for this machine as an array of ``struct sock_filter``; None for an unknown machine."""
+class NoFilter(RuntimeError):
+    """There is no filter for this kind of machine; the message says for which there is one."""
+
+
+def program(machine: str | None = None) -> bytes:
+    """Return the filter for a kind of machine as an array of ``struct sock_filter``.
+
+    Parameters
+    ----------
+    machine : str, optional
+        A name as `platform.machine` gives it, this machine's by default.
+
+    Raises
+    ------
+    NoFilter
+        If the numbers of its system calls are not known here.
+    """
     machine = machine or platform.machine()
     if machine not in CLOSED:
-        return None
+        known = " and ".join(sorted(CLOSED))
+        raise NoFilter(f"its filter of system calls is written for {known} machines, this is {machine}")
     refuse = (RETURN, 0, 0, ERRNO | errno.EPERM)
     missing = (RETURN, 0, 0, ERRNO | errno.ENOSYS)
+    unknown_family = (RETURN, 0, 0, ERRNO | errno.EAFNOSUPPORT)
     allow = (RETURN, 0, 0, ALLOW)
     code = [
         (LOAD, 0, 0, ARCH),
@@ -153,6 +174,11 @@ def program(machine: str | None = None) -> bytes | None:
         (LOAD, 0, 0, FIRST_ARGUMENT),
         (JUMP_SET, 0, 1, NEW_NAMESPACES),
         refuse,
+        allow,
+        (JUMP_EQ, 0, len(SOCKET_FAMILIES) + 3, SOCKET[machine]),
+        (LOAD, 0, 0, FIRST_ARGUMENT),
+        *((JUMP_EQ, left, 0, family) for left, family in zip(range(len(SOCKET_FAMILIES), 0, -1), SOCKET_FAMILIES)),
+        unknown_family,
         allow,
         (JUMP_EQ, 0, 4, IOCTL[machine]),
         (LOAD, 0, 0, SECOND_ARGUMENT),

@@ -1,8 +1,10 @@
 """What a kernel can read, write and reach; each attack is shown to work without the sandbox where it is harmless."""
 
+import errno
 import json
 import os
 import socket
+import struct
 import sys
 import threading
 
@@ -277,7 +279,67 @@ def test_every_jump_of_the_filter_lands_inside_it(machine):
         if line[0] & 7 == 5:
             assert place + 1 + max(line[2], line[3]) < len(lines)
     assert int.from_bytes(lines[-1][4:8], "little") == seccomp.ALLOW
-    assert seccomp.program("vax") is None
+
+
+def run_filter(program, *, machine, call, arguments=()):
+    """What a filter returns for a system call: an interpreter of the few instructions that it uses."""
+    data = struct.pack("<iIQ6Q", call, seccomp.AUDIT_ARCH[machine], 0, *arguments, *[0] * (6 - len(arguments)))
+    lines = list(struct.iter_unpack("=HBBI", program))
+    place = value = 0
+    while True:
+        code, yes, no, constant = lines[place]
+        place += 1
+        if code == seccomp.RETURN:
+            return constant
+        if code == seccomp.LOAD:
+            value = int.from_bytes(data[constant : constant + 4], "little")
+        elif code == seccomp.AND:
+            value &= constant
+        else:
+            test = {
+                seccomp.JUMP_EQ: value == constant,
+                seccomp.JUMP_GE: value >= constant,
+                seccomp.JUMP_SET: bool(value & constant),
+            }
+            place += yes if test[code] else no
+
+
+@pytest.mark.parametrize("machine", sorted(seccomp.CLOSED))
+def test_only_four_families_of_sockets_are_open(machine):
+    program = seccomp.program(machine)
+    answers = {
+        family: run_filter(program, machine=machine, call=seccomp.SOCKET[machine], arguments=(family,))
+        for family in (*range(64), 1 << 31)
+    }
+    opened = {family for family, answer in answers.items() if answer == seccomp.ALLOW}
+    assert opened == {socket.AF_UNIX, socket.AF_INET, socket.AF_INET6, socket.AF_NETLINK}
+    assert {answers[family] for family in answers.keys() - opened} == {seccomp.ERRNO | errno.EAFNOSUPPORT}
+    assert run_filter(program, machine=machine, call=seccomp.CLOSED[machine]["mount"]) == seccomp.ERRNO | errno.EPERM
+    assert run_filter(program, machine=machine, call=seccomp.CLONE[machine], arguments=(0x11,)) == seccomp.ALLOW
+    assert run_filter(program, machine=machine, call=seccomp.IOCTL[machine], arguments=(1, 0x5401)) == seccomp.ALLOW
+    assert run_filter(program, machine=machine, call=seccomp.IOCTL[machine], arguments=(1, 0x8912)) != seccomp.ALLOW
+
+
+def test_a_socket_to_the_host_of_a_virtual_machine_cannot_be_made(sandboxed, printed):
+    source = """
+import socket
+def attempt(family):
+    try:
+        return bool(socket.socket(family, socket.SOCK_STREAM if family != 16 else socket.SOCK_RAW))
+    except OSError as error:
+        return error.errno
+print([attempt(family) for family in (1, 2, 10, 16, 40, 38, 17)])
+"""
+    assert printed(sandboxed(source), 0) == str([True] * 4 + [errno.EAFNOSUPPORT] * 3)
+
+
+def test_a_machine_without_a_filter_is_refused_in_words(monkeypatch):
+    monkeypatch.setattr(seccomp.platform, "machine", lambda: "vax")
+    bubblewrap.available.cache_clear()
+    try:
+        assert "written for aarch64 and x86_64 machines, this is vax" in sandbox.available()
+    finally:
+        bubblewrap.available.cache_clear()
 
 
 @pytest.mark.parametrize(
