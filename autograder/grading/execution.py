@@ -43,7 +43,7 @@ class Execution:
     message: str | None = None
 
     def __deepcopy__(self, memo: dict) -> Execution:
-        # nbconvert deep-copies its resources; a bundle that a student nested a thousand times must not go through that.
+        # nbconvert deep-copies its resources; a packet that a student nested a thousand times must not go through that.
         return self
 
 
@@ -106,8 +106,8 @@ def _arguments(cell: NotebookNode, student: str, stamp: str, outputs: list) -> l
     """Arguments to try a student's function with, None if the cell handed in no function."""
     if not is_check(cell):
         return None
-    bundle = _last_bundle(outputs)
-    answer = bundle.get("answer") if isinstance(bundle, dict) else None
+    packet = _last_packet(outputs)
+    answer = packet.get("answer") if isinstance(packet, dict) else None
     if not isinstance(answer, dict) or "function" not in answer:
         return None
     question = questions.find(question_id(grade_id(cell)))
@@ -118,9 +118,9 @@ def _arguments(cell: NotebookNode, student: str, stamp: str, outputs: list) -> l
 
 def _evidence(nb: NotebookNode, index: int, run: Run, sent: dict[int, list]) -> Evidence:
     trouble = _first_trouble(nb, index, run)
-    probes = (sent[index], _last_bundle(run.followups.get(index, []))) if index in sent else None
-    bundle = _last_bundle(run.cells[index].outputs)
-    return Evidence(bundle, probes, trouble.message, trouble.status) if trouble else Evidence(bundle, probes)
+    probes = (sent[index], _last_packet(run.followups.get(index, []))) if index in sent else None
+    packet = _last_packet(run.cells[index].outputs)
+    return Evidence(packet, probes, trouble.message, trouble.status) if trouble else Evidence(packet, probes)
 
 
 def _first_trouble(nb: NotebookNode, index: int, run: Run) -> CellRun | None:
@@ -135,7 +135,7 @@ def _first_trouble(nb: NotebookNode, index: int, run: Run) -> CellRun | None:
     return next((cell for cell in question if cell.status != "ok"), None)
 
 
-def _last_bundle(outputs: list) -> object | None:
+def _last_packet(outputs: list) -> object | None:
     """The JSON value displayed last under `MIME`."""
     for output in reversed(outputs):
         data = output.get("data")

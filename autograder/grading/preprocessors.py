@@ -93,7 +93,7 @@ class JudgeAnswers(NbGraderPreprocessor):
         cell.metadata["autograder"] = {"note": verdict.note, "share": verdict.share}
         if evidence.trouble:
             cell.metadata["autograder"]["trouble"] = terminal_text(evidence.trouble)
-        if is_unexplained(verdict.note) and (answer := keep(question.id, evidence.bundle)):
+        if is_unexplained(verdict.note) and (answer := keep(question.id, evidence.packet)):
             cell.metadata["autograder"]["answer"] = answer
         return cell, resources
 

@@ -30,14 +30,14 @@ def is_unexplained(note: str) -> bool:
     return note in UNEXPLAINED
 
 
-def keep(question: str, bundle: object) -> str | None:
-    """The bundle of an answer as JSON text.
+def keep(question: str, packet: object) -> str | None:
+    """The packet of an answer as JSON text.
 
     None for a function, whose name says nothing, for what cannot be decoded, and for more than `MAX_KEPT` characters.
     """
     try:
-        answer = decode_answer(bundle, question)
-        text = json.dumps(bundle, separators=(",", ":"))
+        answer = decode_answer(packet, question)
+        text = json.dumps(packet, separators=(",", ":"))
     except (ValueError, RecursionError):
         return None
     return text if len(text) <= MAX_KEPT and not isinstance(answer, Function) else None
@@ -132,7 +132,7 @@ def right_answer(question: Question, student: str) -> Value | None:
         return None
     answer = question.reference(Variant(student))
     answer = answer.solutions if isinstance(answer, Family) else answer
-    return decode_answer(wire.bundle(question.id, answer=wire.encode(answer)), question.id)
+    return decode_answer(wire.packet(question.id, answer=wire.encode(answer)), question.id)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""Reads an answer bundle that came out of a student's kernel. Nothing in it is trusted.
+"""Reads an answer packet that came out of a student's kernel. Nothing in it is trusted.
 
 The result is made of our own frozen nodes only. No text is evaluated, no SymPy object is built, and the
 work is bounded before it is done: number of nodes, depth, digits, length of text.
@@ -22,7 +22,7 @@ _OPERATIONS = {**{name: _ARITIES.get(name, 1) for name in FUNCTIONS}, "add": Non
 
 
 class Malformed(ValueError):
-    """The bundle breaks the wire format; the message is a sentence for the student."""
+    """The packet breaks the wire format; the message is a sentence for the student."""
 
 
 @dataclass(frozen=True)
@@ -94,38 +94,38 @@ Expression = Number | Constant | Symbol | Call
 Value = Expression | Text | Record | Function | Foreign | Failure | Blank | tuple
 
 
-def decode_answer(bundle: object, question: str) -> Value:
-    """The answer inside a bundle of `dhkit.check`; `Malformed` if it is not one for `question`."""
-    return _Reader().value(_content(bundle, question, "answer"))
+def decode_answer(packet: object, question: str) -> Value:
+    """The answer inside a packet of `dhkit.check`; `Malformed` if it is not one for `question`."""
+    return _Reader().value(_content(packet, question, "answer"))
 
 
-def decode_student(bundle: object) -> str | None:
+def decode_student(packet: object) -> str | None:
     """The id that was typed in the notebook an answer came from, None if it has no numbers of its own."""
-    typed = bundle.get("student") if isinstance(bundle, dict) else None
+    typed = packet.get("student") if isinstance(packet, dict) else None
     return None if typed is None else _text(typed)
 
 
-def decode_probes(bundle: object, question: str, count: int) -> tuple[Value, ...]:
-    """The `count` results inside a bundle of `dhkit.check.answer_probes`."""
-    content = _content(bundle, question, "probes")
+def decode_probes(packet: object, question: str, count: int) -> tuple[Value, ...]:
+    """The `count` results inside a packet of `dhkit.check.answer_probes`."""
+    content = _content(packet, question, "probes")
     if not isinstance(content, list) or len(content) != count:
         raise Malformed("the function's answers do not match the arguments that were sent")
     reader = _Reader()
     return tuple(reader.value(item) for item in content)
 
 
-def _content(bundle: object, question: str, key: str) -> object:
-    if not isinstance(bundle, dict) or bundle.keys() - {"student"} != {"format", "question", key}:
+def _content(packet: object, question: str, key: str) -> object:
+    if not isinstance(packet, dict) or packet.keys() - {"student"} != {"format", "question", key}:
         raise Malformed("the answer was not handed in by check()")
-    if type(bundle["format"]) is not int or bundle["format"] != FORMAT:
+    if type(packet["format"]) is not int or packet["format"] != FORMAT:
         raise Malformed("the answer was written by another version of dhkit")
-    if bundle["question"] != question:
+    if packet["question"] != question:
         raise Malformed("the answer belongs to another question")
-    return bundle[key]
+    return packet[key]
 
 
 class _Reader:
-    """Counts nodes over one bundle, so that breadth and depth together stay bounded."""
+    """Counts nodes over one packet, so that breadth and depth together stay bounded."""
 
     def __init__(self) -> None:
         self.left = MAX_NODES

@@ -37,7 +37,7 @@ class Evidence:
 
     Attributes
     ----------
-    bundle : object
+    packet : object
         The JSON value displayed under `dhkit.wire.MIME` by the check cell, None if there was none.
     probes : tuple or None
         For a function: the argument lists that were sent, and the JSON value that came back (or None).
@@ -47,7 +47,7 @@ class Evidence:
         ``"ok"``, or how the cell ended: ``"error"``, ``"timeout"``, ``"memory"``, ``"unreadable"`` ...
     """
 
-    bundle: object | None
+    packet: object | None
     probes: tuple[list, object | None] | None = None
     trouble: str | None = None
     status: str = "ok"
@@ -70,11 +70,11 @@ def judge(
     `earlier` holds the evidence of those earlier questions of the notebook whose errors are forgivable, by id: they are
     not counted here again.
     """
-    if evidence.bundle is None:
+    if evidence.packet is None:
         return _nothing_came(evidence)
     try:
-        value = decode_answer(evidence.bundle, question.id)
-        typed = decode_student(evidence.bundle)
+        value = decode_answer(evidence.packet, question.id)
+        typed = decode_student(evidence.packet)
         if question.public.kind != "function" and _is_blank(value):
             return _not_attempted(evidence)
         found = _judged(question, evidence, value, variant, earlier or {})
@@ -176,7 +176,7 @@ def _follows(question: Question, student: object, setting: Setting, earlier: Map
         return False
     before = public.find(question.follows.earlier)
     try:
-        answer = KINDS[before.kind].read(before, decode_answer(earlier[before.id].bundle, before.id))
+        answer = KINDS[before.kind].read(before, decode_answer(earlier[before.id].packet, before.id))
     except Malformed:
         return False
     values = answer.values(question.samples)
@@ -337,7 +337,7 @@ def _own(question: Question, steps: tuple[Step, ...], variant: Variant) -> tuple
 def _read(question: Question, sent: str) -> object:
     """An answer as the wire carries it, read: two wrong steps mostly come to the same whichever is taken first."""
     form = question.public
-    return KINDS[form.kind].read(form, decode_answer(wire.bundle(form.id, answer=json.loads(sent)), form.id))
+    return KINDS[form.kind].read(form, decode_answer(wire.packet(form.id, answer=json.loads(sent)), form.id))
 
 
 def _unwrapped(answer: object) -> tuple[object, bool]:
@@ -351,7 +351,7 @@ def _taken(steps: tuple[Step, ...], answer: object) -> object:
 
 
 def _decoded(form, answer: object) -> Value:
-    return decode_answer(wire.bundle(form.id, answer=wire.encode(answer)), form.id)
+    return decode_answer(wire.packet(form.id, answer=wire.encode(answer)), form.id)
 
 
 def _read_or_complaint(kind: Kind, form, result: Value) -> object:

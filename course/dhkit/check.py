@@ -39,7 +39,7 @@ def check(id: str, answer=...) -> None:
         _functions[id] = answer
     student = variants.typed(question.exercise)
     whose = {} if student is None else {"student": wire.encode(student)}
-    show(_report(question, node, answer), {wire.MIME: wire.bundle(id, answer=node, **whose)})
+    show(_report(question, node, answer), {wire.MIME: wire.packet(id, answer=node, **whose)})
 
 
 def hint(id: str, level: int = 1) -> None:
@@ -75,7 +75,7 @@ def answer_probes(id: str, arguments: str) -> None:
             answers.append(wire.encode(function(*args)))
         except Exception as error:
             answers.append({"error": f"{type(error).__name__}: {error}"[:300]})
-    show(Report("", "", ()), {wire.MIME: wire.bundle(id, probes=answers)})
+    show(Report("", "", ()), {wire.MIME: wire.packet(id, probes=answers)})
 
 
 def _in_order(question: public.PublicQuestion, answer):

@@ -46,7 +46,7 @@ _SAFE_INTEGER = 2**53
 _CONSTANTS = {sympy.pi: "pi", sympy.E: "E", sympy.I: "I"}
 
 
-def bundle(question: str, **content) -> dict:
+def packet(question: str, **content) -> dict:
     """The JSON object displayed under `MIME` for one question: ``answer`` or ``probes``, and perhaps the ``student`` typed."""
     return {"format": FORMAT, "question": question, **content}
 

@@ -62,7 +62,7 @@ def grade(root, answers):
         folder.mkdir(parents=True)
         evidence = {
             f"scara-{name}": Evidence(
-                wire.bundle(f"scara.{name}", answer=value if isinstance(value, dict) else wire.encode(value))
+                wire.packet(f"scara.{name}", answer=value if isinstance(value, dict) else wire.encode(value))
             )
             for name, value in zip(NAMES, values, strict=True)
         }

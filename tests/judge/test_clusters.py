@@ -27,7 +27,7 @@ CHOICE = Question("scara.d2_sign", lambda variant: "B")
 
 
 def decoded(value, id="any"):
-    return decode_answer(wire.bundle(id, answer=wire.encode(value)), id)
+    return decode_answer(wire.packet(id, answer=wire.encode(value)), id)
 
 
 def attempts(question, *answers, said="Not right."):
@@ -36,7 +36,7 @@ def attempts(question, *answers, said="Not right."):
         Attempt(
             chr(ord("a") + i),
             said,
-            kept(question.id, keep(question.id, wire.bundle(question.id, answer=wire.encode(answer)))),
+            kept(question.id, keep(question.id, wire.packet(question.id, answer=wire.encode(answer)))),
         )
         for i, answer in enumerate(answers)
     ]
@@ -126,15 +126,15 @@ def test_notes_that_name_a_mistake_are_explained():
 
 
 @pytest.mark.parametrize(
-    "bundle",
+    "packet",
     [
-        None, "text", {"format": 1}, wire.bundle("other.question", answer=1), wire.bundle("scara.model", answer={"eval": "1"}),
-        wire.bundle("scara.model", answer={"function": "model"}), wire.bundle("scara.model", answer=["x" * 900] * 30),
-        wire.bundle("scara.model", answer=float("nan")),
+        None, "text", {"format": 1}, wire.packet("other.question", answer=1), wire.packet("scara.model", answer={"eval": "1"}),
+        wire.packet("scara.model", answer={"function": "model"}), wire.packet("scara.model", answer=["x" * 900] * 30),
+        wire.packet("scara.model", answer=float("nan")),
     ],
 )  # fmt: skip
-def test_only_what_can_be_decoded_is_kept(bundle):
-    assert keep("scara.model", bundle) is None
+def test_only_what_can_be_decoded_is_kept(packet):
+    assert keep("scara.model", packet) is None
 
 
 def deep(levels):
@@ -150,7 +150,7 @@ def test_a_kept_text_is_not_trusted(text):
 
 def test_what_is_kept_comes_back():
     value = [sympy.sqrt(t1) / 3, 2**80, 0.1, ...]
-    text = keep("scara.model", wire.bundle("scara.model", answer=wire.encode(value)))
+    text = keep("scara.model", wire.packet("scara.model", answer=wire.encode(value)))
     assert json.loads(text)["question"] == "scara.model" and kept("scara.model", text) == decoded(value)
 
 

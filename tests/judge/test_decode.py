@@ -12,13 +12,13 @@ from hypothesis import strategies as st
 
 from autograder.judge.decode import MAX_DEPTH, Blank, Constant, Malformed, Number, decode_answer, decode_probes
 from autograder.judge.evaluate import evaluate
-from dhkit.wire import bundle, encode
+from dhkit.wire import encode, packet
 
 t1, t2 = sympy.symbols("t1 t2")
 
 
 def decode(node):
-    return decode_answer(bundle("q", answer=node), "q")
+    return decode_answer(packet("q", answer=node), "q")
 
 
 @pytest.mark.parametrize(
@@ -105,15 +105,15 @@ def test_nasty_nodes_are_refused(name):
         {"format": 1, "question": "q", "probes": []},
     ],
 )  # fmt: skip
-def test_a_bundle_must_be_exactly_what_check_writes(raw):
+def test_a_packet_must_be_exactly_what_check_writes(raw):
     with pytest.raises(Malformed):
         decode_answer(raw, "q")
 
 
 def test_probes_must_match_what_was_sent():
-    assert len(decode_probes(bundle("q", probes=[1, 2]), "q", 2)) == 2
+    assert len(decode_probes(packet("q", probes=[1, 2]), "q", 2)) == 2
     with pytest.raises(Malformed):
-        decode_probes(bundle("q", probes=[1]), "q", 2)
+        decode_probes(packet("q", probes=[1]), "q", 2)
 
 
 def test_power_towers_cost_nothing():

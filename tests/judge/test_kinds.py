@@ -7,7 +7,7 @@ import sympy
 from autograder.judge.decode import Malformed, decode_answer
 from autograder.judge.kinds import KINDS, Setting
 from dhkit.public import PublicQuestion
-from dhkit.wire import bundle, encode
+from dhkit.wire import encode, packet
 
 t1, t2, x = sympy.symbols("t1 t2 x")
 rng = np.random.default_rng(5)
@@ -21,7 +21,7 @@ def question(kind, **form):
 
 
 def read(form, answer):
-    return KINDS[form.kind].read(form, decode_answer(bundle("q", answer=encode(answer)), "q"))
+    return KINDS[form.kind].read(form, decode_answer(packet("q", answer=encode(answer)), "q"))
 
 
 def compare(form, student, other, **setting):

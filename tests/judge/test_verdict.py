@@ -45,7 +45,7 @@ def arm(monkeypatch):
 
 
 def evidence(id, answer, **whose):
-    return Evidence(wire.bundle(id, answer=wire.encode(answer), **whose))
+    return Evidence(wire.packet(id, answer=wire.encode(answer), **whose))
 
 
 def judged(question, answer, variant=ADA, earlier=None, **whose):
@@ -227,7 +227,7 @@ def test_degrees_are_named_also_where_some_targets_have_no_solution():
 def test_two_tables_without_any_joint_are_compared_cell_by_cell(rows):
     form = public.find("scara.table")
     student, other = (
-        KINDS["dh_table"].read(form, decode_answer(wire.bundle(form.id, answer=wire.encode(each)), form.id))
+        KINDS["dh_table"].read(form, decode_answer(wire.packet(form.id, answer=wire.encode(each)), form.id))
         for each in (rows, [[0, 7, 0, 0, 0]] * 4)
     )
     assert not KINDS["dh_table"].compare(form, student, other, Setting(find(form.id).samples)).equal
@@ -340,6 +340,6 @@ HALF = Question(
 def test_a_value_that_is_not_finite_is_a_failure_like_an_exception(failed):
     probes = HALF.probes(ADA, 7)
     results = [[0.5, 1.0], failed, [1.5, 1.0]]
-    handed_in = wire.bundle("arm.half", answer={"function": "half"})
-    found = judge(HALF, Evidence(handed_in, (probes, wire.bundle("arm.half", probes=results))), ADA)
+    handed_in = wire.packet("arm.half", answer={"function": "half"})
+    found = judge(HALF, Evidence(handed_in, (probes, wire.packet("arm.half", probes=results))), ADA)
     assert (found.note, found.share) == ("fails_at_zero", 0.6)

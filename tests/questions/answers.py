@@ -20,7 +20,7 @@ def right(question):
 def evidence(question, answer):
     """What the sandbox would find if a student handed in `answer`."""
     if question.public.kind != "function":
-        return Evidence(wire.bundle(question.id, answer=wire.encode(answer)))
+        return Evidence(wire.packet(question.id, answer=wire.encode(answer)))
     probes, results = question.probes(VARIANT, 7), []
     for args in probes:
         try:
@@ -28,8 +28,8 @@ def evidence(question, answer):
             results.append(wire.encode(getattr(found, "solutions", found)))
         except Exception as error:
             results.append({"error": str(error)})
-    handed_in = wire.bundle(question.id, answer={"function": "f"})
-    return Evidence(handed_in, (probes, wire.bundle(question.id, probes=results)))
+    handed_in = wire.packet(question.id, answer={"function": "f"})
+    return Evidence(handed_in, (probes, wire.packet(question.id, probes=results)))
 
 
 def verdict(question, answer):

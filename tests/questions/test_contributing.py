@@ -23,8 +23,8 @@ from dhkit import wire
 t1, L1 = sympy.symbols("t1 L1")
 x, y = L1 * sympy.cos(t1), L1 * sympy.sin(t1)
 for answer in ([x, y], [y, x], [x, x], ...):
-    bundle = wire.bundle("planar_2r.elbow", answer=wire.encode(answer))
-    print(judge(find("planar_2r.elbow"), Evidence(bundle), Variant("ada")).note)
+    packet = wire.packet("planar_2r.elbow", answer=wire.encode(answer))
+    print(judge(find("planar_2r.elbow"), Evidence(packet), Variant("ada")).note)
 """
 
 

@@ -179,7 +179,7 @@ def test_constant_functions_are_refused(question):
 
 @pytest.mark.parametrize("question", FUNCTIONS, ids=ids(FUNCTIONS))
 def test_something_else_than_a_function_is_said_to_be_so(question):
-    found = judge(question, Evidence(wire.bundle(question.id, answer=[1, 2])), VARIANT)
+    found = judge(question, Evidence(wire.packet(question.id, answer=[1, 2])), VARIANT)
     assert found.note == "malformed" and "expected a function" in found.feedback and "shape 2" in found.feedback
 
 

@@ -50,10 +50,10 @@ def test_every_answer_gets_a_verdict(question):
     for _ in range(150):
         if question.public.kind == "function":
             probes = question.probes(VARIANT, rng.randrange(9))
-            results = wire.bundle(question.id, probes=[answer(rng, question.public.returns) for _ in probes])
-            evidence = Evidence(wire.bundle(question.id, answer={"function": "f"}), (probes, results))
+            results = wire.packet(question.id, probes=[answer(rng, question.public.returns) for _ in probes])
+            evidence = Evidence(wire.packet(question.id, answer={"function": "f"}), (probes, results))
         else:
-            evidence = Evidence(wire.bundle(question.id, answer=answer(rng, question.public)))
+            evidence = Evidence(wire.packet(question.id, answer=answer(rng, question.public)))
         found = judge(question, evidence, VARIANT)
         assert 0 <= found.share <= question.partial, evidence
 
@@ -64,5 +64,5 @@ def test_every_answer_gets_a_verdict(question):
 @pytest.mark.parametrize("entry", ODD, ids=str)
 def test_a_table_of_one_odd_entry_earns_nothing(question, entry):
     rows, columns = question.public.shape
-    found = judge(question, Evidence(wire.bundle(question.id, answer=[[entry] * columns] * rows)), VARIANT)
+    found = judge(question, Evidence(wire.packet(question.id, answer=[[entry] * columns] * rows)), VARIANT)
     assert found.share == 0

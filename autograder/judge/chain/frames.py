@@ -84,7 +84,7 @@ class JudgedChain:
         points = points or {name: np.array([value], float) for name, value in table.values.items()}
 
         def decoded(value) -> tuple:
-            return sum(decode_answer(wire.bundle("table", answer=wire.encode(value)), "table"), ())
+            return sum(decode_answer(wire.packet("table", answer=wire.encode(value)), "table"), ())
 
         def transform(matrix) -> np.ndarray:
             return np.stack([evaluate(entry, points).real for entry in decoded(matrix)], axis=-1).reshape(-1, 4, 4)

@@ -59,11 +59,11 @@ def warm():
 
 
 def evidence(id, node):
-    bundle = wire.bundle(id, answer=node)
+    packet = wire.packet(id, answer=node)
     if find(id).public.kind != "function":
-        return Evidence(bundle)
+        return Evidence(packet)
     probes = find(id).probes(VARIANT, 3)
-    return Evidence(wire.bundle(id, answer={"function": "f"}), (probes, wire.bundle(id, probes=[node] * len(probes))))
+    return Evidence(wire.packet(id, answer={"function": "f"}), (probes, wire.packet(id, probes=[node] * len(probes))))
 
 
 def filled(id, node):
