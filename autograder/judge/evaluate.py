@@ -45,24 +45,24 @@ def _real(x):
     return np.where(np.imag(x) == 0, np.real(x), np.nan)
 
 
-def evaluate(expression: Expression, points: Mapping[str, np.ndarray]) -> np.ndarray:
-    """Complex values of `expression` at N points given as one (N,) array per symbol; nan or inf where undefined."""
-    values = np.empty(len(next(iter(points.values()), (0,))), complex)
+def evaluate(expression: Expression, samples: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Complex values of `expression` at N sample points given as one (N,) array per symbol; nan or inf where undefined."""
+    values = np.empty(len(next(iter(samples.values()), (0,))), complex)
     with np.errstate(all="ignore"):
-        values[:] = _evaluate(expression, points)
+        values[:] = _evaluate(expression, samples)
     return values
 
 
-def _evaluate(expression: Expression, points: Mapping[str, np.ndarray]):
+def _evaluate(expression: Expression, samples: Mapping[str, np.ndarray]):
     match expression:
         case Number(value):
             return _as_complex(value)
         case Constant(name):
             return {"pi": np.pi + 0j, "E": np.e + 0j, "I": 1j}[name]
         case Symbol(name):
-            return points[name] + 0j
+            return samples[name] + 0j
         case Call(function, args):
-            return _NUMPY[function](*(_evaluate(arg, points) for arg in args))
+            return _NUMPY[function](*(_evaluate(arg, samples) for arg in args))
 
 
 def _as_complex(value) -> np.complex128:

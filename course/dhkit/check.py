@@ -11,8 +11,8 @@ from collections.abc import Mapping
 
 from . import public, variants, wire
 from .forms import blanks, complaint, is_blank, names_of
+from .notice import Line, Notice, show
 from .public_checks import run_public_check
-from .report import Line, Report, show
 
 _functions: dict[str, object] = {}
 
@@ -39,7 +39,7 @@ def check(id: str, answer=...) -> None:
         _functions[id] = answer
     student = variants.typed(question.exercise)
     whose = {} if student is None else {"student": wire.encode(student)}
-    show(_report(question, node, answer), {wire.MIME: wire.packet(id, answer=node, **whose)})
+    show(_notice(question, node, answer), {wire.MIME: wire.packet(id, answer=node, **whose)})
 
 
 def hint(id: str, level: int = 1) -> None:
@@ -53,7 +53,7 @@ def hint(id: str, level: int = 1) -> None:
         lines = [Line(None, question.hints[level - 1])]
         if level < len(question.hints):
             lines.append(Line(None, f'more: hint("{id}", {level + 1})'))
-    show(Report(f"Hint: {question.title}", "", tuple(lines)))
+    show(Notice(f"Hint: {question.title}", "", tuple(lines)))
 
 
 def answer_probes(id: str, arguments: str) -> None:
@@ -75,7 +75,7 @@ def answer_probes(id: str, arguments: str) -> None:
             answers.append(wire.encode(function(*args)))
         except Exception as error:
             answers.append({"error": f"{type(error).__name__}: {error}"[:300]})
-    show(Report("", "", ()), {wire.MIME: wire.packet(id, probes=answers)})
+    show(Notice("", "", ()), {wire.MIME: wire.packet(id, probes=answers)})
 
 
 def _in_order(question: public.PublicQuestion, answer):
@@ -87,18 +87,18 @@ def _in_order(question: public.PublicQuestion, answer):
     return answer
 
 
-def _report(question: public.PublicQuestion, node: object, answer) -> Report:
+def _notice(question: public.PublicQuestion, node: object, answer) -> Notice:
     if is_blank(node):
-        return Report(question.title, "not attempted yet", ())
+        return Notice(question.title, "not attempted yet", ())
     wrong_form = complaint(question, node)
     if wrong_form:
-        return Report(question.title, "not in the form asked for", (Line(False, wrong_form),))
+        return Notice(question.title, "not in the form asked for", (Line(False, wrong_form),))
     if blanks(node):
-        return Report(question.title, "partly attempted", (Line(False, f"{blanks(node)} entries are still ..."),))
+        return Notice(question.title, "partly attempted", (Line(False, f"{blanks(node)} entries are still ..."),))
     lines = [Line(True, f"the form is right: {question.expected}")]
     lines += [run_public_check(question, spec, _in_order(question, answer)) for spec in question.public]
     if question.kind == "function" and any(line.blank for line in lines):
-        return Report(question.title, "not attempted yet", ())
+        return Notice(question.title, "not attempted yet", ())
     missed = sum(line.holds is False for line in lines)
     status = "handed in" if not missed else f"handed in, but {missed} of {len(lines)} checks fail"
-    return Report(question.title, status, tuple(lines))
+    return Notice(question.title, status, tuple(lines))

@@ -101,7 +101,7 @@ def _wrong_form(question: PublicQuestion, node: object) -> str | None:
     elif kind == "joint_solutions":
         count = len(question.joints)
         fits = shape == (0,) or (shape is not None and shape[-1:] == (count,) and len(shape) in (1, 2))
-    elif kind == "points":
+    elif kind == "point_cloud":
         fits = shape is not None and len(shape) == 2 and shape[1:] == question.shape
     else:
         fits = shape == question.shape

@@ -22,7 +22,7 @@ KINDS = (
     "dh_table",
     "joint_solutions",
     "orientation",
-    "points",
+    "point_cloud",
     "function",
     "choice",
 )

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import sympy
 
+from .notice import Line
 from .public import PublicQuestion
-from .report import Line
 
 _TOLERANCE = 1e-6
 

@@ -121,8 +121,8 @@ class Shell:
 
     def __init__(self, monkeypatch):
         self.shown = []
-        monkeypatch.setattr("dhkit.report.get_ipython", lambda: self)
-        monkeypatch.setattr("dhkit.report.display", lambda data, raw: self.shown.append(data))
+        monkeypatch.setattr("dhkit.notice.get_ipython", lambda: self)
+        monkeypatch.setattr("dhkit.notice.display", lambda data, raw: self.shown.append(data))
 
 
 def test_in_jupyter_the_answer_travels_as_data(monkeypatch):
@@ -136,7 +136,7 @@ def test_in_jupyter_the_answer_travels_as_data(monkeypatch):
     }
 
 
-def test_reports_escape_what_the_student_wrote(monkeypatch):
+def test_notices_escape_what_the_student_wrote(monkeypatch):
     shell = Shell(monkeypatch)
     check("demo.model", [sympy.Symbol("<script>"), 1])
     assert "<script>" not in shell.shown[0]["text/html"] and "&lt;script&gt;" in shell.shown[0]["text/html"]

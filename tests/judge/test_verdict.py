@@ -22,7 +22,7 @@ FORMS = {
     ),
     "arm.fixed": PublicQuestion("arm.fixed", "", "orientation", "three angles", shape=(3,), axes="xyz", frames="fixed"),
     "arm.free": PublicQuestion("arm.free", "", "direction", "a direction", shape=(2,)),
-    "arm.cloud": PublicQuestion("arm.cloud", "", "points", "a list of points", shape=(2,)),
+    "arm.cloud": PublicQuestion("arm.cloud", "", "point_cloud", "a list of points", shape=(2,)),
     "arm.half": PublicQuestion(
         "arm.half",
         "",

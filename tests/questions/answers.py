@@ -53,7 +53,7 @@ def other_forms(question):
     answer, kind, form = right(question), question.public.kind, question.public
     if kind == "choice":
         return {"lower case": answer.lower(), "spaces": f" {answer}\n"}
-    if kind == "points":
+    if kind == "point_cloud":
         cloud = np.array(answer, dtype=float)
         shuffled = np.random.default_rng(3).permutation(cloud)
         return {
@@ -107,7 +107,7 @@ def other_forms(question):
 def perturbed(question, rng):
     """The reference with one entry changed by a visible amount; None where nothing has changed."""
     answer, kind = right(question), question.public.kind
-    if kind == "points":
+    if kind == "point_cloud":
         cloud = np.array(answer, dtype=float)
         size, far = np.ptp(cloud, axis=0), 3 * question.tolerance
         chosen = rng.integers(3)

@@ -151,7 +151,7 @@ def test_perturbed_functions_are_refused(question):
         results = [np.array(each, dtype=float) for each in plain]
         if results[place].size == 0:
             results[place] = np.full((1, len(question.public.returns.joints)), 0.3)
-        elif question.public.returns.kind == "points":
+        elif question.public.returns.kind == "point_cloud":
             results[place] = results[place] * 1.5 + 10 * question.tolerance
         else:
             results[place].flat[rng.integers(results[place].size)] += rng.uniform(0.1, 1)

@@ -18,7 +18,7 @@ from .entries import (
     read_vector,
 )
 from .orientation import compare_orientation, read_orientation
-from .points import compare_points, read_points
+from .point_cloud import compare_cloud, read_cloud
 from .solutions import compare_solutions, read_solutions
 from .tables import compare_table, read_table
 
@@ -46,6 +46,6 @@ KINDS = {
     "dh_table": Kind(read_table, compare_table),
     "joint_solutions": Kind(read_solutions, compare_solutions),
     "orientation": Kind(read_orientation, compare_orientation),
-    "points": Kind(read_points, compare_points),
+    "point_cloud": Kind(read_cloud, compare_cloud),
     "choice": Kind(_read_choice, _compare_choice),
 }

@@ -32,7 +32,7 @@ class Setting:
 
     Attributes
     ----------
-    points : mapping of str to (N,) array
+    samples : mapping of str to (N,) array
         Values of the symbols at the sample points.
     angles : tuple of int
         Indices of the vector entries (or () and (0,) for a single expression) that are angles, compared modulo 2 pi.
@@ -52,7 +52,7 @@ class Setting:
         Infinitely many solutions: every one that does not miss the target is right.
     """
 
-    points: Mapping[str, np.ndarray] = field(default_factory=dict)
+    samples: Mapping[str, np.ndarray] = field(default_factory=dict)
     angles: tuple[int, ...] = ()
     tolerance: float = 1e-6
     pinned: frozenset[str] = frozenset()

@@ -44,29 +44,29 @@ class Entries:
     known: np.ndarray | None = None
     _kept: dict = field(default_factory=dict, repr=False)
 
-    def values(self, points: Mapping[str, np.ndarray]) -> np.ndarray:
+    def values(self, samples: Mapping[str, np.ndarray]) -> np.ndarray:
         """Complex values at N points, (N, m), computed once; nan where nothing was filled in or nothing is defined."""
         if self.known is not None:
             return self.known
 
         def evaluated() -> np.ndarray:
-            count = len(next(iter(points.values()), np.zeros(1)))
+            count = len(next(iter(samples.values()), np.zeros(1)))
             columns = [
-                np.full(count, np.nan) if isinstance(e, Blank) else evaluate(e, points) for e in self.expressions
+                np.full(count, np.nan) if isinstance(e, Blank) else evaluate(e, samples) for e in self.expressions
             ]
             return np.stack(columns, axis=1).astype(complex)
 
-        return self.once("values", points, evaluated)
+        return self.once("values", samples, evaluated)
 
     def finite(self) -> bool:
         """Whether no filled-in number is nan or infinite; for entries without symbols."""
         filled = [not isinstance(expression, Blank) for expression in self.expressions]
         return bool(np.isfinite(self.values({})[:, filled]).all())
 
-    def once(self, what: str, points: Mapping[str, np.ndarray], make: Callable[[], T]) -> T:
+    def once(self, what: str, samples: Mapping[str, np.ndarray], make: Callable[[], T]) -> T:
         """What `make` returns; made once for the same sample points, as one answer is compared with many."""
-        if (kept := self._kept.get(what)) is None or kept[0] is not points:
-            kept = self._kept[what] = points, make()
+        if (kept := self._kept.get(what)) is None or kept[0] is not samples:
+            kept = self._kept[what] = samples, make()
         return kept[1]
 
 
@@ -110,7 +110,7 @@ def read_array(question: PublicQuestion, value: object) -> Entries:
 
 def agreement(student: Entries, other: Entries, setting: Setting, angles: Sequence[bool] | np.ndarray) -> np.ndarray:
     """Which of m entries agree at every sample point, (m,) booleans; where `angles` says so, modulo 2 pi."""
-    theirs, ours = student.values(setting.points), other.values(setting.points)
+    theirs, ours = student.values(setting.samples), other.values(setting.samples)
     angles = np.asarray(angles, bool)
     with np.errstate(all="ignore"):
         error = np.abs(difference(theirs, ours, angles)) / np.maximum(1, np.abs(ours))
@@ -138,9 +138,9 @@ def difference(a: np.ndarray, b: np.ndarray, angles: np.ndarray) -> np.ndarray:
 def _agree_exactly(student: Expression | Blank, other: Expression, setting: Setting, angle: bool) -> bool:
     if isinstance(student, Blank):
         return False
-    draws = list(zip(*setting.points.values(), strict=True)) or [()]
+    draws = list(zip(*setting.samples.values(), strict=True)) or [()]
     for values in draws:
-        point = dict(zip(setting.points, values, strict=True))
+        point = dict(zip(setting.samples, values, strict=True))
         theirs, ours = evaluate_exactly(student, point), evaluate_exactly(other, point)
         if theirs is None or ours is None:
             return False
@@ -166,7 +166,7 @@ def _name(question: PublicQuestion, index: int) -> str:
 
 def compare_direction(question: PublicQuestion, student: Entries, other: Entries, setting: Setting) -> Comparison:
     """Vectors that count as equal when they are parallel: lengths and senses are free."""
-    theirs, ours = (_unit(entries.values(setting.points)) for entries in (student, other))
+    theirs, ours = (_unit(entries.values(setting.samples)) for entries in (student, other))
     aligned = np.abs((theirs * ours.conj()).sum(axis=1))
     if np.isfinite(aligned).all() and (aligned > 1 - setting.tolerance).all():
         return Comparison(True, 1.0)
@@ -195,7 +195,7 @@ def compare_transform(question: PublicQuestion, student: Entries, other: Entries
     if agree.all():
         return Comparison(True, 1.0)
     where = " at the values tried" if question.symbols else ""
-    theirs, ours = (entries.values(setting.points).reshape(-1, *question.shape) for entries in (student, other))
+    theirs, ours = (entries.values(setting.samples).reshape(-1, *question.shape) for entries in (student, other))
     remarks = list(_cells(agree))
     if not blocks[0]:
         remarks.append(_rotation_error(theirs[:, :-1, :-1], ours[:, :-1, :-1], where))

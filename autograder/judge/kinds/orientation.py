@@ -24,7 +24,7 @@ def compare_orientation(question: PublicQuestion, student: Entries, other: Entri
 
     The tolerance is in radians.
     """
-    theirs, ours = (entries.values(setting.points) for entries in (student, other))
+    theirs, ours = (entries.values(setting.samples) for entries in (student, other))
     if not np.isfinite(theirs).all() or np.abs(theirs.imag).max() > 1e-9:
         return Comparison(False, 0.0, ("the angles are not real numbers everywhere",))
     unit = 2 * np.pi / setting.turn

@@ -44,12 +44,12 @@ def compare_table(question: PublicQuestion, student: Entries, other: Entries, se
 def _chain(entries: Entries, question: PublicQuestion, setting: Setting) -> JudgedChain | None:
     def read() -> JudgedChain | None:
         try:
-            chain = JudgedChain.of_entries(entries.expressions, question.joints, setting.points)
+            chain = JudgedChain.of_entries(entries.expressions, question.joints, setting.samples)
         except NotAChain:
             return None
         return chain if chain.joints else None
 
-    return entries.once("chain", setting.points, read)
+    return entries.once("chain", setting.samples, read)
 
 
 def _ends_apart(mine: JudgedChain, theirs: JudgedChain, setting: Setting) -> bool:

@@ -1,4 +1,4 @@
-"""The report a student sees: HTML in Jupyter, plain text elsewhere."""
+"""The notice a student sees: HTML in Jupyter, plain text elsewhere."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _COLOURS = {True: "#009E73", False: "#D55E00", None: "#555555"}
 
 @dataclass(frozen=True)
 class Line:
-    """One statement of a report: it holds (True), fails (False) or only informs (None)."""
+    """One statement of a notice: it holds (True), fails (False) or only informs (None)."""
 
     holds: bool | None
     text: str
@@ -27,7 +27,7 @@ class Line:
 
 
 @dataclass(frozen=True)
-class Report:
+class Notice:
     """Title, overall status and lines shown for one question."""
 
     title: str
@@ -48,9 +48,9 @@ class Report:
         return f'<div style="border-left:3px solid #0072B2;padding:0.2em 0.8em"><b>{html.escape(self.title)}</b>{status}{rows}</div>'
 
 
-def show(report: Report, data: dict | None = None) -> None:
-    """Display `report`; in Jupyter the MIME bundle `data` goes along, unseen."""
+def show(notice: Notice, data: dict | None = None) -> None:
+    """Display `notice`; in Jupyter the MIME bundle `data` goes along, unseen."""
     if get_ipython() is None:
-        print(report.text())
+        print(notice.text())
     else:
-        display({"text/plain": report.text(), "text/html": report.html(), **(data or {})}, raw=True)
+        display({"text/plain": notice.text(), "text/html": notice.html(), **(data or {})}, raw=True)

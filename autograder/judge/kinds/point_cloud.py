@@ -17,7 +17,7 @@ MAX_POINTS = 5000
 ENOUGH = 0.99
 
 
-def read_points(question: PublicQuestion, value: object) -> np.ndarray:
+def read_cloud(question: PublicQuestion, value: object) -> np.ndarray:
     """Points as rows, (n, 2) or (n, 3), in metres."""
     shape, (dimension,) = array_shape(value), question.shape
     if shape is None or len(shape) != 2 or shape[1] != dimension:
@@ -33,7 +33,7 @@ def read_points(question: PublicQuestion, value: object) -> np.ndarray:
     return points
 
 
-def compare_points(question: PublicQuestion, student: np.ndarray, other: np.ndarray, setting: Setting) -> Comparison:
+def compare_cloud(question: PublicQuestion, student: np.ndarray, other: np.ndarray, setting: Setting) -> Comparison:
     """Coverage: points of `other` that have one of the student's within the tolerance. Excess: the other way round."""
     covered, inside = (_near(a, b, setting.tolerance) for a, b in ((other, student), (student, other)))
     remarks = []
