@@ -3,6 +3,7 @@
 import json
 import shutil
 
+import expected
 import nbformat
 import pytest
 from edits import FILE_EDITS, NOTEBOOK_EDITS, STUB, grade_id, released, solved
@@ -56,16 +57,35 @@ def test_edits_leave_their_input_alone():
 def test_every_submission_can_be_made(one):
     files = hand_in(one, solution(one.exercise))
     assert all(isinstance(content, bytes) for content in files.values())
-    assert one.says.endswith(".") and 0 <= one.score <= 20
+    assert one.says.endswith(".")
     assert f"{one.exercise}.ipynb" in files or any(edit["do"] in FILE_EDITS for edit in one.edits)
 
 
 def test_an_unknown_edit_and_an_unknown_cell_are_named():
     nb = solution("scara")
     with pytest.raises(ValueError, match="no edit 'explode'"):
-        hand_in(Submission("scara", "x", "", 0, edits=({"do": "explode"},)), nb)
+        hand_in(Submission("scara", "x", "", edits=({"do": "explode"},)), nb)
     with pytest.raises(LookupError, match="no cell 'scara-T40'; there are scara-table-answer"):
-        hand_in(Submission("scara", "x", "", 0, edits=({"do": "delete", "cell": "scara-T40"},)), nb)
+        hand_in(Submission("scara", "x", "", edits=({"do": "delete", "cell": "scara-T40"},)), nb)
+
+
+def test_a_note_that_does_not_settle_the_share_needs_one(tmp_path, monkeypatch):
+    (tmp_path / "students").mkdir()
+    (tmp_path / "students/x.toml").write_text('[scara.x]\nsays = "."\nnotes = { T04 = "sign_of_d2" }\n')
+    monkeypatch.setattr(expected, "HERE", tmp_path)
+    with pytest.raises(ValueError, match=r"scara\.x: T04 has no share"):
+        submissions()
+
+
+def test_a_question_without_a_note_is_right_where_it_was_answered():
+    one = Submission(
+        "scara", "x", "", {"U1": ["sign_of_d2", 0.7], "dhm": "malformed"}, ("table", "dhm"), {"model": "..."}
+    )
+    assert one.expected("table") == one.expected("model") == ("right", 1.0)
+    assert one.expected("new") == ("not_attempted", 0.0)
+    assert (one.expected("U1"), one.expected("dhm")) == (("sign_of_d2", 0.7), ("malformed", 0.0))
+    assert Submission("scara", "x", "").expected("new") == ("right", 1.0)
+    assert Submission("scara", "x", "", {"*": "unreadable"}).expected("new") == ("unreadable", 0.0)
 
 
 def test_the_class_is_written_twice_the_same_and_keeps_grades(tmp_path):
