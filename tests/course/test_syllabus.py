@@ -16,7 +16,9 @@ from autograder.reference import errata, parallel, robots
 from dhkit.public import KINDS, questions
 
 ROOT = Path(__file__).parents[2]
-TOPICS = tomllib.loads((ROOT / "docs/syllabus.toml").read_text())["topic"]
+SYLLABUS = tomllib.loads((ROOT / "docs/syllabus.toml").read_text())
+TOPICS = SYLLABUS["topic"]
+README = (ROOT / "README.md").read_text()
 MODULES = [ast.parse(file.read_text()) for file in (ROOT / "autograder/questions").rglob("*.py")]
 # Robots that questions make with lengths or readings of their own.
 MADE_BY = {"planar": {"PLANAR_4R"}, "pen": {"PEN_A", "PEN_B", "PEN_C"}, "scara_centres": {"SCARA_EPFL"}}
@@ -57,10 +59,11 @@ def test_there_are_at_least_eighty_questions_of_every_kind():
     assert kinds == set(KINDS)
 
 
-def test_every_robot_is_asked_about():
+def test_every_robot_of_the_documents_is_asked_about():
     used = set(names_used())
     found = {name.upper() for name in used} | set().union(*(made for name, made in MADE_BY.items() if name in used))
-    assert set(robots.names()) - found == set()
+    assert set(SYLLABUS["robots"]) - found == set()
+    assert set(SYLLABUS["robots"]) <= set(robots.names())
     assert {parallel.ThreeRPR.__name__, parallel.ThreeRRR.__name__, "THREE_RPR"} & used
 
 
@@ -72,9 +75,12 @@ def test_every_misconception_of_the_catalogue_stands_in_a_tree():
     assert makes - {"classic_transform", "product"} - set(names_used()) == set()
 
 
-def test_every_exercise_has_its_lecture_and_numbers_of_ones_own_are_common():
-    lectures = {path.stem.partition("_")[2] for path in (ROOT / "course").glob("[0-9]*.ipynb")}
-    assert set(exercises()) <= lectures and lectures - set(exercises()) == {"errata"}
+def test_every_lecture_has_its_exercise_and_stands_in_the_readme():
+    lectures = {path.stem for path in (ROOT / "course").glob("[0-9]*.ipynb")}
+    assert {name.partition("_")[2] for name in lectures} - set(exercises()) == {"errata"}
+    table = re.findall(r"^\| `course/(\w+).ipynb` \| (?:`exercises/(\w+)/`|for lecturers) \|", README, re.M)
+    assert {lecture for lecture, _ in table} == lectures
+    assert all(exercise in ("", lecture.partition("_")[2]) for lecture, exercise in table)
 
 
 def test_the_errata_lecture_shows_every_erratum_with_its_proof():
