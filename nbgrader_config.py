@@ -16,24 +16,24 @@ c.CourseDirectory.release_directory = "exercises"
 
 c.ClearSolutions.code_stub = {"python": "# your code here"}
 
-c.Autograde.exporter_class = "autograder.grading.converters.SubmissionExporter"
+c.Autograde.exporter_class = "autograder.grading.plugins.converters.SubmissionExporter"
 c.Autograde.sanitize_preprocessors = [
-    "autograder.grading.preprocessors.RestoreCells",
+    "autograder.grading.plugins.preprocessors.RestoreCells",
     "nbgrader.preprocessors.CheckCellMetadata",
 ]
 c.Autograde.autograde_preprocessors = [
-    "autograder.grading.preprocessors.SandboxExecute",
-    "autograder.grading.preprocessors.JudgeAnswers",
+    "autograder.grading.plugins.preprocessors.SandboxExecute",
+    "autograder.grading.plugins.preprocessors.JudgeAnswers",
     "nbgrader.preprocessors.LimitOutput",
     "nbgrader.preprocessors.SaveAutoGrades",
-    "autograder.grading.preprocessors.SaveNotes",
+    "autograder.grading.plugins.preprocessors.SaveNotes",
     "nbgrader.preprocessors.AssignLatePenalties",
     "nbgrader.preprocessors.CheckCellMetadata",
 ]
 
-c.GenerateFeedback.exporter_class = "autograder.grading.converters.FeedbackExporter"
+c.GenerateFeedback.exporter_class = "autograder.grading.plugins.converters.FeedbackExporter"
 c.GenerateFeedback.preprocessors = [
-    "autograder.grading.preprocessors.Summarize",
+    "autograder.grading.plugins.preprocessors.Summarize",
     "nbconvert.preprocessors.CSSHTMLHeaderPreprocessor",
 ]
 
@@ -41,4 +41,4 @@ c.GenerateFeedback.preprocessors = [
 # script output; what is left is Markdown. (sanitize_html would also escape the paragraphs of our own feedback.)
 c.HTMLExporter.filters = {"markdown2html": "autograder.grading.inert.markdown2html"}
 
-c.ExportApp.plugin_class = "autograder.grading.export.GradesAndNotes"
+c.ExportApp.plugin_class = "autograder.grading.plugins.export.GradesAndNotes"

@@ -178,8 +178,8 @@ def _grade(options) -> int:
 
 
 def _feedback(options) -> int:
-    from autograder.grading.converters import FeedbackPages
     from autograder.grading.course import CourseError, convert
+    from autograder.grading.plugins.converters import FeedbackPages
 
     course = _course(options)
     course.choose(options.exercise)
@@ -196,8 +196,8 @@ def _feedback(options) -> int:
 def _report(options) -> int:
     from pathlib import Path
 
-    from autograder.grading.page import write_report
-    from autograder.grading.report import class_report
+    from autograder.grading.report.page import write_report
+    from autograder.grading.report.statistics import class_report
     from autograder.grading.table import report_table
 
     course = _course(options)
@@ -213,7 +213,7 @@ def _export(options) -> int:
     from nbgrader.api import Gradebook
     from traitlets.config import Config
 
-    from autograder.grading.export import GradesAndNotes
+    from autograder.grading.plugins.export import GradesAndNotes
 
     target = os.path.abspath(options.to)
     course = _course(options, Config(ExportPlugin={"to": target, "assignment": options.exercise}))

@@ -1,11 +1,13 @@
 """From what students hand in to a gradebook, notes and feedback: nbgrader plug-ins and the class pipeline.
 
-reading        opens a submission strictly and bounded
-restore        gives it back the cells that are not the student's to change
-execution      runs it in the sandbox and gathers the evidence
-preprocessors  the plug-ins that nbgrader_config.py names: restore, execute, judge, note, summarize
-converters     nbgrader's converters for submissions that nobody has looked at
+entries        what a verdict is in nbgrader's gradebook: a score and a comment
+inert          makes what a student wrote harmless to look at
+submission/    opens a submission strictly, restores it, runs it in the sandbox
+plugins/       nbgrader's converters, preprocessors and exporters, as this course configures them
+host           prepares a process that runs nbgrader
+course         a course folder with nbgrader opened on it
 pipeline       grades a class: kernels side by side, gradebook by one thread
 results        what was found, one line per submission
-release, report, export, bundle, doctor    the other commands
+report/        the class report
+release, bundle, doctor    the other commands; table shows results and report in a terminal
 """

@@ -11,8 +11,8 @@ from nbgrader.apps import NbGrader
 from nbgrader.converters.base import BaseConverter, NbGraderException
 from traitlets.config import Config
 
-from .converters import student_names
 from .host import prepare
+from .plugins.converters import student_names
 
 CONFIG = "nbgrader_config.py"
 

@@ -26,6 +26,6 @@ def prepare() -> None:
     import nbgrader.apps.api
     import nbgrader.apps.autogradeapp
 
-    from .converters import SubmissionAutograde
+    from .plugins.converters import SubmissionAutograde
 
     nbgrader.apps.api.Autograde = nbgrader.apps.autogradeapp.Autograde = SubmissionAutograde

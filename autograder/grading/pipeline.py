@@ -15,7 +15,9 @@ from nbgrader.api import Gradebook
 
 from autograder.sandbox import cancel_runs
 
-from .converters import (
+from .course import Course, CourseError, convert
+from .inert import terminal_text
+from .plugins.converters import (
     FeedbackPages,
     NotReady,
     SubmissionAutograde,
@@ -24,13 +26,11 @@ from .converters import (
     released_path,
     submission,
 )
-from .course import Course, CourseError, convert
-from .execution import Execution, execute
-from .inert import terminal_text
-from .preprocessors import SandboxExecute
-from .reading import fingerprint
-from .restore import restore
+from .plugins.preprocessors import SandboxExecute
 from .results import Result, graded_notebooks, read_result
+from .submission.execution import Execution, execute
+from .submission.reading import fingerprint
+from .submission.restore import restore
 
 Progress = Callable[[str], None]
 

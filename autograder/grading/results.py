@@ -9,10 +9,10 @@ import nbformat
 from nbgrader.api import Gradebook, MissingEntry
 
 from .course import Course
-from .export import results
 from .inert import terminal_text
-from .reading import Unreadable, plain_bytes
-from .restore import grade_id, is_check, question_id
+from .plugins.export import results
+from .submission.reading import Unreadable, plain_bytes
+from .submission.restore import grade_id, is_check, question_id
 
 # From this many on, questions with the same note share it: "U1, T04, model: not_attempted".
 _MANY = 3

@@ -12,7 +12,7 @@ from rich.table import Table
 
 from .course import Course
 from .inert import terminal_text
-from .report import ENOUGH, ClassReport, QuestionReport
+from .report.statistics import ENOUGH, ClassReport, QuestionReport
 from .results import Result, relative
 
 # So many notes of a question stand in the report's table; the page shows all.

@@ -5,8 +5,8 @@ import re
 import pytest
 from nbformat.v4 import new_output
 
+from autograder.grading.entries import comment, note_of, points
 from autograder.grading.inert import inert_outputs, markdown2html, spreadsheet_cell, terminal_text
-from autograder.grading.points import comment, note_of, points
 
 ATTACKS = [
     "<script>alert(1)</script>",

@@ -17,11 +17,11 @@ from autograder.judge.clusters import Attempt, Cluster, cluster, is_unexplained,
 from autograder.judge.decode import Value
 from dhkit.public import questions as public_questions
 
-from .course import Course, CourseError
-from .export import results
-from .inert import terminal_text
-from .restore import grade_id, is_check, question_id
-from .results import graded_notebooks
+from ..course import Course, CourseError
+from ..inert import terminal_text
+from ..plugins.export import results
+from ..results import graded_notebooks
+from ..submission.restore import grade_id, is_check, question_id
 
 UNNOTED = "unnoted"
 RIGHT = ("right", "right_from_earlier")

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from autograder.judge.clusters import is_unexplained
 from dhkit.strokes import AXIS_COLOURS, FAINT, INK, SOFT, STYLE
 
-from .report import NOTHING_CAME, RIGHT, TELLS, TELLS_WELL, ClassReport, QuestionReport
+from .statistics import NOTHING_CAME, RIGHT, TELLS, TELLS_WELL, ClassReport, QuestionReport
 
 _STYLE = {**STYLE, "hatch.linewidth": 0.8, "text.parse_math": False}
 _NO_METADATA = {"Creator": None, "Date": None, "Format": None, "Type": None}

@@ -25,11 +25,11 @@ from traitlets.config import Config
 
 from autograder.sandbox import available
 
-from .execution import Execution
-from .inert import terminal_text
+from ..inert import terminal_text
+from ..submission.execution import Execution
+from ..submission.reading import Unreadable, fingerprint, plain_bytes, read_submission
+from ..submission.restore import grade_id, is_check
 from .preprocessors import SandboxExecute
-from .reading import Unreadable, fingerprint, plain_bytes, read_submission
-from .restore import grade_id, is_check
 
 TEMPLATES = str(Path(__file__).parent / "templates")
 

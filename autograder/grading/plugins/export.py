@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from nbgrader.api import Assignment, Gradebook, MissingEntry, Student
 from nbgrader.plugins import ExportPlugin
 
-from .inert import spreadsheet_cell
-from .points import note_of
-from .restore import answer_id, question_id
+from ..entries import note_of
+from ..inert import spreadsheet_cell
+from ..submission.restore import answer_id, question_id
 
 _ABOUT = ("assignment", "duedate", "timestamp", "student_id", "last_name", "first_name", "email")
 _SCORES = ("raw_score", "late_submission_penalty", "score", "max_score")

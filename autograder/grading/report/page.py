@@ -11,11 +11,10 @@ from markupsafe import Markup
 
 from autograder.judge.written import written
 
+from ..course import CourseError
+from ..inert import spreadsheet_cell
 from . import plots
-from .converters import TEMPLATES
-from .course import CourseError
-from .inert import spreadsheet_cell
-from .report import ClassReport
+from .statistics import ClassReport
 
 PAGE = "report.html"
 _SHOWN_STUDENTS, _SHOWN_CLUSTERS = 12, 12
@@ -37,7 +36,7 @@ def write_report(report: ClassReport, folder: Path) -> Path:
 def as_html(report: ClassReport) -> str:
     """The report as one page that needs nothing else and in which nothing acts."""
     environment = Environment(
-        loader=FileSystemLoader(Path(TEMPLATES, "report")),
+        loader=FileSystemLoader(Path(__file__).parent / "templates"),
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
     environment.filters |= {"written": written, "students": _students, "percent": lambda share: f"{share:.0%}"}

@@ -22,10 +22,10 @@ from autograder.judge.clusters import is_unexplained, keep
 from autograder.sandbox import Limits
 from dhkit.public import questions as public_questions
 
-from .execution import Execution, execute
-from .inert import terminal_text
-from .points import comment, points
-from .restore import answer_id, grade_id, is_check, question_id, restore
+from ..entries import comment, points
+from ..inert import terminal_text
+from ..submission.execution import Execution, execute
+from ..submission.restore import answer_id, grade_id, is_check, question_id, restore
 
 _LIMITS = Limits()
 

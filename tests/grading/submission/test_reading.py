@@ -6,8 +6,8 @@ import os
 import nbformat
 import pytest
 
-from autograder.grading import reading
-from autograder.grading.reading import Unreadable, fingerprint, plain_files, read_submission
+from autograder.grading.submission import reading
+from autograder.grading.submission.reading import Unreadable, fingerprint, plain_files, read_submission
 
 
 def notebook(*cells, **more):

@@ -11,12 +11,12 @@ import sympy
 from bs4 import BeautifulSoup
 
 from autograder import cli
-from autograder.grading.converters import SubmissionAutograde
 from autograder.grading.course import CourseError, convert, open_course
-from autograder.grading.execution import Execution
-from autograder.grading.page import as_html, tables, write_report
-from autograder.grading.reading import fingerprint
-from autograder.grading.report import ClassReport, class_report, discrimination
+from autograder.grading.plugins.converters import SubmissionAutograde
+from autograder.grading.report.page import as_html, tables, write_report
+from autograder.grading.report.statistics import ClassReport, class_report, discrimination
+from autograder.grading.submission.execution import Execution
+from autograder.grading.submission.reading import fingerprint
 from autograder.judge import Evidence
 from autograder.judge.written import written
 from dhkit import wire

@@ -7,7 +7,7 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell
 
-from autograder.grading.restore import grade_id, is_check, restore
+from autograder.grading.submission.restore import grade_id, is_check, restore
 
 CHECKS = ("scara-T04", "scara-d2_sign", "scara-forward")
 

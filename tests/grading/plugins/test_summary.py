@@ -2,7 +2,7 @@
 
 from nbformat.v4 import new_code_cell, new_output
 
-from autograder.grading.preprocessors import _summary
+from autograder.grading.plugins.preprocessors import _summary
 
 
 def test_both_of_two_mistakes_are_told():

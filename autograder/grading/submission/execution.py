@@ -16,7 +16,7 @@ from autograder import questions
 from autograder.judge import MIME, Evidence, Variant
 from autograder.sandbox import CellRun, Limits, Run, run_notebook
 
-from .inert import inert_outputs
+from ..inert import inert_outputs
 from .reading import MAX_FOLDER_BYTES, plain_files
 from .restore import answer_id, grade_id, is_check, question_id
 
