@@ -12,7 +12,7 @@ FOLDERS = ("course", "exercises")
 FOR_LECTURERS = ("course/13_errata.ipynb",)
 """Notebooks that stay with the lecturer: they answer "find the slide's error" and import the autograder."""
 
-_LEFT_OUT = {"__pycache__", ".ipynb_checkpoints", ".pytest_cache"}
+_LEFT_OUT = {"build", "__pycache__", ".ipynb_checkpoints", ".pytest_cache"}
 _MARKS = ("BEGIN SOLUTION", "END SOLUTION", "BEGIN HIDDEN TESTS")
 _EPOCH = (1980, 1, 1, 0, 0, 0)
 

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import metadata
+from importlib.util import find_spec
 from pathlib import Path
 
 PYTHON = (3, 11)
@@ -45,13 +46,15 @@ def _packages(root: Path) -> Iterator[Finding]:
             installed = "missing"
         if installed != pin:
             wrong.append(f"{name} {installed}, pinned {pin}")
-    found = "; ".join(wrong) or f"{len(pins)} as pinned"
+    found = "; ".join(wrong) or (f"{len(pins)} as pinned" if pins else f"{root} pins none")
     yield Finding("packages", not wrong, found, SETUP)
-    for name in ("autograder", "dhkit"):
-        try:
-            yield Finding(name, True, metadata.version(name))
-        except metadata.PackageNotFoundError:
-            yield Finding(name, False, "not installed", SETUP)
+    try:
+        yield Finding("autograder", True, metadata.version("autograder"))
+    except metadata.PackageNotFoundError:
+        yield Finding("autograder", False, "not installed", SETUP)
+    # The kit may have come with autograder's own files, and then has no version of its own.
+    kit = find_spec("dhkit")
+    yield Finding("dhkit", kit is not None, str(kit.origin) if kit else "not installed", SETUP)
 
 
 def _pins(path: Path) -> Iterator[tuple[str, str]]:

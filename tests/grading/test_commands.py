@@ -200,6 +200,8 @@ def with_kit(course_copy, small):
         (course_copy / name).write_text('{"cells": []}')
     (kit / "__pycache__").mkdir()
     (kit / "__pycache__/check.pyc").write_text("")
+    (course_copy / "course/build/lib/dhkit").mkdir(parents=True)
+    (course_copy / "course/build/lib/dhkit/check.py").write_text("def check(): ...\n")
     (course_copy / "course/dhkit.egg-info").mkdir()
     (course_copy / "course/dhkit.egg-info/PKG-INFO").write_text("")
     (course_copy / "course/secret").symlink_to(course_copy / "solutions")
@@ -253,7 +255,7 @@ def test_the_repositorys_own_bundle_holds_no_solution(small, tmp_path):
 def test_doctor_finds_everything_here(small, capsys):
     assert run(small.REPOSITORY, "doctor") == 0
     out = capsys.readouterr().out
-    for what in ("Python", "packages", "alembic", "kernel", "sandbox", "gradebook"):
+    for what in ("Python", "packages", "autograder", "dhkit", "alembic", "kernel", "sandbox", "gradebook"):
         assert f"ok       {what}: " in out
 
 

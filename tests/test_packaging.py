@@ -1,0 +1,59 @@
+"""Both packages declare what they import; what is pinned lies within the declared ranges; licences go with each."""
+
+import ast
+import re
+import sys
+import tomllib
+from importlib import metadata
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+ROOT = Path(__file__).parents[1]
+PROJECTS = {"pyproject.toml": ("autograder", "course/dhkit"), "course/pyproject.toml": ("course/dhkit",)}
+OURS = {"autograder", "dhkit"}
+
+
+def declared(file):
+    """Name -> requirement of the dependencies in a pyproject.toml."""
+    lines = tomllib.loads((ROOT / file).read_text())["project"]["dependencies"]
+    return {canonicalize_name(found.name): found for found in map(Requirement, lines)}
+
+
+def pinned():
+    """Name -> version of the pins in both requirements files."""
+    text = (ROOT / "requirements.txt").read_text() + (ROOT / "course/requirements.txt").read_text()
+    return {canonicalize_name(name): version for name, version in re.findall(r"^([\w.-]+)==([^\s;]+)", text, re.M)}
+
+
+def imported(folder):
+    """Top-level modules that the files below a folder import."""
+    for path in (ROOT / folder).rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.Import):
+                yield from (alias.name.split(".")[0] for alias in node.names)
+            elif isinstance(node, ast.ImportFrom) and not node.level:
+                yield node.module.split(".")[0]
+
+
+@pytest.mark.parametrize("file", PROJECTS)
+def test_what_a_package_imports_is_declared(file):
+    modules = {name for folder in PROJECTS[file] for name in imported(folder)} - OURS - sys.stdlib_module_names
+    providers = metadata.packages_distributions()
+    assert modules <= providers.keys(), "imported, and not installed"
+    assert {canonicalize_name(providers[module][0]) for module in modules} <= declared(file).keys()
+
+
+@pytest.mark.parametrize("file", PROJECTS)
+def test_pins_lie_within_the_declared_ranges(file):
+    pins = pinned()
+    for name, requirement in declared(file).items():
+        version = pins.get(name) or metadata.version(name)
+        assert requirement.specifier.contains(version), f"{requirement}, but {version} is what is tested"
+
+
+def test_students_get_a_licence_with_the_kit():
+    for name in ("LICENSE", "LICENSE-TEXT.md"):
+        assert (ROOT / "course" / name).read_text() == (ROOT / name).read_text()
