@@ -6,6 +6,10 @@ import argparse
 import json
 import os
 import sys
+from dataclasses import Field, fields
+from typing import Any
+
+from autograder.sandbox import Limits
 
 
 def _positive(text: str) -> int:
@@ -26,14 +30,18 @@ def _seconds(text: str) -> float:
     return number
 
 
-LIMITS = {
-    "memory": (_bytes, "1G", "memory for one notebook, all its processes together"),
-    "processes": (_positive, "128", "processes and threads of one notebook"),
-    "file-size": (_bytes, "64M", "size a file may grow to"),
-    "cell-seconds": (_seconds, "30", "processor time for one cell"),
-    "notebook-seconds": (_seconds, "120", "processor time for one notebook"),
-    "output-bytes": (_bytes, "1M", "output of one notebook"),
-}
+_UNITS = {"bytes": (_bytes, "BYTES"), "seconds": (_seconds, "S"), "count": (_positive, "N")}
+
+
+def _shown(limit: Field) -> str:
+    """The default of a limit as one would type it."""
+    default: Any = limit.default
+    if limit.metadata["unit"] != "bytes":
+        return f"{default:g}"
+    size, letter = next(
+        (size, letter) for size, letter in ((30, "G"), (20, "M"), (10, "K"), (0, "")) if default >> size
+    )
+    return f"{default >> size}{letter}"
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -99,9 +107,10 @@ def _parser() -> argparse.ArgumentParser:
     grade.add_argument("--json", action="store_true", help="print one JSON object per submission instead of the table")
     sandbox = grade.add_argument_group("sandbox")
     sandbox.add_argument("--sandbox", choices=("bwrap", "none"), help="'none' runs students' code unprotected, as you")
-    for name, (kind, default, help) in LIMITS.items():
-        metavar = {_bytes: "BYTES", _seconds: "S"}.get(kind, "N")
-        sandbox.add_argument(f"--{name}", type=kind, metavar=metavar, help=f"{help} (default {default})")
+    for limit in fields(Limits):
+        read, metavar = _UNITS[limit.metadata["unit"]]
+        text = f"{limit.metadata['help']} (default {_shown(limit)})"
+        sandbox.add_argument(f"--{limit.name.replace('_', '-')}", type=read, metavar=metavar, help=text)
 
     feedback = command(
         "feedback", _feedback, "Write the feedback pages of all graded submissions.", "autograder feedback scara"
@@ -155,9 +164,7 @@ def _grade(options) -> int:
     from autograder.grading.pipeline import grade
     from autograder.grading.table import class_table, progress_bar, summary
 
-    given = {name.replace("-", "_"): getattr(options, name.replace("-", "_")) for name in LIMITS} | {
-        "mode": options.sandbox
-    }
+    given = {limit.name: getattr(options, limit.name) for limit in fields(Limits)} | {"mode": options.sandbox}
     course = _course(
         options, Config(SandboxExecute={name: value for name, value in given.items() if value is not None})
     )

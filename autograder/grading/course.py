@@ -53,11 +53,15 @@ class Course:
         """Exercises that have a solution notebook."""
         return sorted({path.parent.name for path in self.step("source").glob("*/*.ipynb")})
 
-    def choose(self, exercise: str) -> None:
-        """Work on `exercise`; `CourseError` lists what exists if it does not."""
+    def require(self, exercise: str) -> None:
+        """`CourseError` with the exercises that exist if `exercise` is none of them."""
         known = self.exercises()
         if exercise not in known:
             raise CourseError(f"there is no exercise {exercise!r}; there are: {', '.join(known) or 'none'}")
+
+    def choose(self, exercise: str) -> None:
+        """Tell nbgrader which exercise its converters work on; `CourseError` if there is no such exercise."""
+        self.require(exercise)
         self.app.coursedir.assignment_id = exercise
 
     def students(self, exercise: str) -> list[str]:
@@ -74,7 +78,7 @@ class Course:
             If an exercise or a student does not exist, with those that do; if nobody handed in anything.
         """
         for exercise in exercises:
-            self.choose(exercise)
+            self.require(exercise)
         handed_in = {exercise: self.students(exercise) for exercise in exercises or self.exercises()}
         everybody = sorted({name for names in handed_in.values() for name in names})
         if not everybody:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import html
 import re
 from collections.abc import Iterable
+from html import escape
 
-import bleach
+import nh3
 from jinja2 import pass_context
 from nbconvert.filters.markdown_mistune import IPythonRenderer, MarkdownWithMath
 from nbformat.notebooknode import NotebookNode
@@ -82,7 +82,16 @@ def _joined(text: object) -> str:
 
 
 class _Renderer(IPythonRenderer):
-    """Stock rendering, except that a missing attachment is said instead of ending the page."""
+    """Stock rendering, except that tags which are not let through are shown as they were typed.
+
+    A missing attachment is said instead of ending the page.
+    """
+
+    def block_html(self, html: str) -> str:
+        return super().block_html(html) if _is_allowed(html) else f"<p>{escape(html)}</p>"
+
+    def inline_html(self, html: str) -> str:
+        return super().inline_html(html) if _is_allowed(html) else escape(html)
 
     def _embed_image_or_attachment(self, src: str) -> str:
         if src.startswith("attachment:") and src.removeprefix("attachment:") not in self.attachments:
@@ -94,69 +103,40 @@ class _Renderer(IPythonRenderer):
 def markdown2html(context, source: str) -> str:
     """nbconvert's filter of the same name, with every tag and attribute that could act left out."""
     if len(source) > MAX_MARKDOWN:
-        return f"<pre>{html.escape(source)}</pre>"
+        return f"<pre>{escape(source)}</pre>"
     attachments = (context.get("cell") or {}).get("attachments", {})
     renderer = _Renderer(escape=False, attachments=attachments, exclude_anchor_links=True)
     try:
         page = MarkdownWithMath(renderer=renderer).render(source)
     except RecursionError:
-        return f"<pre>{html.escape(source)}</pre>"
-    return bleach.clean(page, tags=_TAGS, attributes=_allowed, protocols=("http", "https", "mailto", "data"))
+        return f"<pre>{escape(source)}</pre>"
+    return nh3.clean(
+        page, tags=_TAGS, attributes=_ATTRIBUTES, attribute_filter=_attribute, url_schemes=_SCHEMES, link_rel=None
+    )
 
 
-_TAGS = frozenset(
-    [
-        "a",
-        "abbr",
-        "b",
-        "blockquote",
-        "br",
-        "code",
-        "dd",
-        "del",
-        "div",
-        "dl",
-        "dt",
-        "em",
-        "h1",
-        "h2",
-        "h3",
-        "h4",
-        "h5",
-        "h6",
-        "hr",
-        "i",
-        "img",
-        "kbd",
-        "li",
-        "ol",
-        "p",
-        "pre",
-        "s",
-        "span",
-        "strong",
-        "sub",
-        "sup",
-        "table",
-        "tbody",
-        "td",
-        "th",
-        "thead",
-        "tr",
-        "u",
-        "ul",
-    ]
-)
+_TAGS = {
+    "a", "abbr", "b", "blockquote", "br", "code", "dd", "del", "div", "dl", "dt", "em", "h1", "h2", "h3", "h4", "h5", "h6",
+    "hr", "i", "img", "kbd", "li", "ol", "p", "pre", "s", "span", "strong", "sub", "sup", "table", "tbody", "td", "th",
+    "thead", "tr", "u", "ul",
+}  # fmt: skip
+_ATTRIBUTES = {"*": {"align", "title"}, "a": {"href"}, "img": {"alt", "src"}, "ol": {"start"}}
+_ATTRIBUTES |= {"div": {"class"}, "span": {"class"}}
+_SCHEMES = {"http", "https", "mailto", "data"}
+_TAG = re.compile(r"</?\s*([a-zA-Z][^\s/>]*)")
 _LINK = re.compile(r"(https?://|mailto:|#)\S*\Z")
 _IMAGE = re.compile(r"data:image/(png|jpeg);base64,[A-Za-z0-9+/=\s]*\Z")
 _CODE_CLASSES = frozenset(STANDARD_TYPES.values()) - {""} | {"highlight"}
 
 
-def _allowed(tag: str, name: str, value: str) -> bool:
-    if tag == "a" and name == "href":
-        return bool(_LINK.match(value))
-    if tag == "img":
-        return name == "alt" or (name == "src" and bool(_IMAGE.match(value)))
-    if name == "class":
-        return tag in ("div", "span") and value in _CODE_CLASSES
-    return name in ("title", "align") or (tag == "ol" and name == "start")
+def _is_allowed(html: str) -> bool:
+    """True if every tag in a piece of HTML is one that is let through."""
+    return all(name.lower() in _TAGS for name in _TAG.findall(html))
+
+
+def _attribute(tag: str, name: str, value: str) -> str | None:
+    """The value of an attribute that is let through, None for one that could act."""
+    wanted = {"href": _LINK, "src": _IMAGE}.get(name)
+    if wanted is not None:
+        return value if wanted.match(value) else None
+    return None if name == "class" and value not in _CODE_CLASSES else value

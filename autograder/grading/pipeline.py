@@ -2,11 +2,15 @@
 
 Kernels take nearly all of the time and run in processes of their own, so worker threads only drive them. What
 they bring back goes through the very converter that ``nbgrader autograde`` uses, one submission after the other.
+
+A submission is therefore read and restored more than once: here, to run it ahead, and again by the converter, which
+takes nothing for granted and finds the run by the submission's fingerprint. That is the price of being nbgrader's
+guest: the same plug-ins, in the same order, give the same gradebook whether our command or the stock one is typed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import closing
 
@@ -15,6 +19,7 @@ from nbgrader.api import Gradebook
 
 from autograder.sandbox import cancel_runs
 
+from .cells import notebook_record
 from .course import Course, CourseError, convert
 from .inert import terminal_text
 from .plugins.converters import (
@@ -28,7 +33,7 @@ from .plugins.converters import (
 )
 from .plugins.preprocessors import SandboxExecute
 from .results import Result, graded_notebooks, read_result
-from .submission.execution import Execution, execute
+from .submission.execution import Execution
 from .submission.reading import fingerprint
 from .submission.restore import restore
 
@@ -101,14 +106,14 @@ def _is_new(course: Course, student: str, exercise: str, names: list[str]) -> bo
         return True
     folder = course.step("submitted", student, exercise)
     now = {fingerprint(folder, released_path(course.app.coursedir, exercise, name).read_bytes()) for name in names}
-    return now != {nb.metadata.get("autograder", {}).get("submission") for nb in notebooks}
+    return now != {notebook_record(nb).submission for nb in notebooks}
 
 
 def _run(course: Course, runner: SandboxExecute, student: str, exercise: str, name: str) -> Execution:
     released = released_path(course.app.coursedir, exercise, name)
     folder = course.step("submitted", student, exercise)
     nb = restore(submission(folder / f"{name}.ipynb", released), nbformat.read(released, as_version=4))
-    return execute(nb, (folder, released.parent), student, runner.limits, runner.mode, (course.root,))
+    return runner.run(nb, (folder, released.parent), student, course.root)
 
 
 def _store(course: Course, student: str, executions: dict[tuple[str, str], Execution]) -> None:
@@ -124,7 +129,7 @@ def _store(course: Course, student: str, executions: dict[tuple[str, str], Execu
         raise CourseError(f"the points are in the gradebook, but there is no feedback page: {reason}") from None
 
 
-def _run_ahead(run: Callable[[str], dict], students: list[str], jobs: int) -> Iterator[tuple[str, Future]]:
+def _run_ahead(run: Callable[[str], dict], students: list[str], jobs: int) -> Generator[tuple[str, Future]]:
     """Yield each student with the finished run, in the order in which runs end; few results wait at any time."""
     waiting = iter(students)
     running: dict[Future, str] = {}

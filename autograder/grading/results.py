@@ -8,11 +8,11 @@ from pathlib import Path
 import nbformat
 from nbgrader.api import Gradebook, MissingEntry
 
+from .cells import check_cells, check_record, notebook_record, question_id
 from .course import Course
+from .entries import read_entries
 from .inert import terminal_text
-from .plugins.export import results
 from .submission.reading import Unreadable, plain_bytes
-from .submission.restore import grade_id, is_check, question_id
 
 # From this many on, questions with the same note share it: "U1, T04, model: not_attempted".
 _MANY = 3
@@ -20,12 +20,12 @@ _SAID_WHY = ("error", "timeout", "memory", "output_limit", "died", "not_run")
 
 
 @dataclass(frozen=True)
-class Answer:
+class QuestionResult:
     """One question of one submission: points, answer note, and why it did not run, if it did not."""
 
     question: str
     score: float
-    points: float
+    max_score: float
     note: str
     trouble: str | None = None
 
@@ -49,7 +49,7 @@ class Result:
     status: str
     score: float | None = None
     max_score: float | None = None
-    answers: tuple[Answer, ...] = ()
+    answers: tuple[QuestionResult, ...] = ()
     remarks: tuple[str, ...] = ()
     feedback: str | None = None
 
@@ -78,7 +78,7 @@ class Result:
         return {**asdict(self), "found": self.found()}
 
 
-def _in_short(answer: Answer) -> str:
+def _in_short(answer: QuestionResult) -> str:
     why = f" ({terminal_text(answer.trouble, 80)})" if answer.trouble and answer.note in _SAID_WHY else ""
     return f"{answer.note}{why}"
 
@@ -101,28 +101,20 @@ def read_result(course: Course, gradebook: Gradebook, student: str, exercise: st
     except MissingEntry:
         return Result(student, exercise, "failed", remarks=("the gradebook does not know this submission",))
     notebooks = graded_notebooks(course, student, exercise)
-    order = [grade_id(cell) for nb in notebooks for cell in nb.cells if is_check(cell)]
-    trouble = {
-        grade_id(cell): cell.metadata.get("autograder", {}).get("trouble") for nb in notebooks for cell in nb.cells
-    }
+    judged = {check: check_record(cell) for nb in notebooks for check, cell in check_cells(nb).items()}
+    entries = {entry.check: entry for entry in read_entries(submission)}
+    order = [check for check in judged if check in entries] + [check for check in entries if check not in judged]
     answers = [
-        Answer(question_id(name), score, most, note or "", trouble.get(name))
-        for name, score, most, note in results(submission)
+        QuestionResult(
+            question_id(entry.check), entry.score, entry.max_score, entry.note or "", record.trouble if record else None
+        )
+        for entry, record in ((entries[check], judged.get(check)) for check in order)
     ]
-    answers.sort(key=lambda answer: order.index(answer.question.replace(".", "-", 1)) if order else 0)
     feedback = sorted(course.step("feedback", student, exercise).glob("*.html"))
     score = max(0.0, submission.score - submission.late_submission_penalty)
     page = str(feedback[0]) if feedback else None
-    return Result(student, exercise, status, score, submission.max_score, tuple(answers), _remarks(notebooks), page)
-
-
-def _remarks(notebooks: list[nbformat.NotebookNode]) -> tuple[str, ...]:
-    remarks = []
-    for nb in notebooks:
-        ours = nb.metadata.get("autograder", {})
-        remarks += [ours[key] for key in ("unreadable", "trouble") if ours.get(key)]
-        remarks += ours.get("repairs", [])
-    return tuple(remarks)
+    remarks = tuple(remark for nb in notebooks for remark in notebook_record(nb).remarks())
+    return Result(student, exercise, status, score, submission.max_score, tuple(answers), remarks, page)
 
 
 def relative(path: str | Path, root: Path) -> str:

@@ -66,7 +66,7 @@ def report_table(report: ClassReport) -> None:
         said = "; ".join(f"{note} {count}" for note, count in notes[:_NOTES])
         more = f"; and {len(notes) - _NOTES} more" if len(notes) > _NOTES else ""
         table.add_row(
-            *map(_cell, (question.question, f"{question.mean:.2f}/{question.points:g}", f"{question.full:.0%}")),
+            *map(_cell, (question.question, f"{question.mean:.2f}/{question.max_score:g}", f"{question.full:.0%}")),
             _discrimination(question),
             _cell(f"{said}{more}"),
             _look_at(question),

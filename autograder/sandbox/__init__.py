@@ -1,9 +1,16 @@
 """Runs a student's notebook where it can harm and learn nothing."""
 
-from .bubblewrap import SandboxUnavailable, available
-from .client import CellRun, KernelStartError
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from .limits import Limits
-from .run import Run, cancel_runs, run_notebook
+
+if TYPE_CHECKING:
+    from .bubblewrap import SandboxUnavailable, available
+    from .client import CellRun, KernelStartError
+    from .run import Run, cancel_runs, run_notebook
 
 __all__ = [
     "CellRun",
@@ -15,3 +22,20 @@ __all__ = [
     "cancel_runs",
     "run_notebook",
 ]
+
+_MODULES = {
+    "CellRun": "client",
+    "KernelStartError": "client",
+    "Run": "run",
+    "SandboxUnavailable": "bubblewrap",
+    "available": "bubblewrap",
+    "cancel_runs": "run",
+    "run_notebook": "run",
+}
+
+
+def __getattr__(name: str) -> Any:
+    # Jupyter is imported when a notebook is run: the command line shows the limits at once.
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f".{_MODULES[name]}", __name__), name)

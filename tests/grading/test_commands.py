@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import signal
 import sqlite3
@@ -10,15 +11,19 @@ import sys
 import textwrap
 import time
 import zipfile
+from dataclasses import fields
 from functools import partial
 
 import nbformat
 import psutil
 import pytest
+from traitlets.config import Config
 
 from autograder import cli
 from autograder.grading import doctor
 from autograder.grading.bundle import FOR_LECTURERS
+from autograder.grading.plugins.preprocessors import SandboxExecute
+from autograder.sandbox import Limits
 
 
 def run(root, *words):
@@ -41,11 +46,21 @@ def test_help_loads_nothing_heavy():
     assert not {"nbgrader", "rich", "sympy", "numpy", "nbconvert", "traitlets", "jupyter_client"} & set(modules)
 
 
-def test_the_shown_defaults_are_those_of_the_sandbox():
-    from autograder.sandbox import Limits
+def test_every_limit_of_the_sandbox_has_an_option_that_shows_its_default(capsys):
+    with pytest.raises(SystemExit):
+        cli.main(["grade", "--help"])
+    shown = " ".join(capsys.readouterr().out.split())
+    for limit in fields(Limits):
+        option = f"--{limit.name.replace('_', '-')}"
+        default = re.search(rf"{option} [A-Z]+ .*?\(default (\S+)\)", shown)[1]
+        read, _ = cli._UNITS[limit.metadata["unit"]]
+        assert read(default) == limit.default
 
-    for name, (read, default, _) in cli.LIMITS.items():
-        assert read(default) == getattr(Limits(), name.replace("-", "_"))
+
+def test_every_limit_of_the_sandbox_can_be_configured():
+    config = Config(SandboxExecute={limit.name: 7 for limit in fields(Limits)})
+    limits = SandboxExecute(config=config).limits
+    assert all(getattr(limits, limit.name) == 7 for limit in fields(Limits))
 
 
 @pytest.mark.parametrize(

@@ -1,11 +1,12 @@
 """What students wrote can be looked at and does nothing."""
 
+import html
 import re
 
 import pytest
 from nbformat.v4 import new_output
 
-from autograder.grading.entries import comment, note_of, points
+from autograder.grading.entries import comment, note_of, score
 from autograder.grading.inert import inert_outputs, markdown2html, spreadsheet_cell, terminal_text
 
 ATTACKS = [
@@ -68,6 +69,20 @@ def test_markdown_stays_readable():
         assert piece in page
 
 
+@pytest.mark.parametrize(
+    "text", ["a <script>alert(1)</script> b", "<script>alert(1)</script>", "x <T> y", "<b><style>p{}</style></b>"]
+)
+def test_tags_that_are_not_let_through_are_shown_as_typed(text):
+    page = markdown2html({}, text)
+    typed = re.findall(r"</?(?:script|style|T)>", text)
+    assert typed and all(html.escape(tag) in page for tag in typed)
+
+
+def test_harmless_html_is_let_through():
+    page = markdown2html({}, 'x<sub>1</sub> <a href="https://example.org" title="t">y</a>\n\n<!-- nothing -->')
+    assert 'x<sub>1</sub> <a href="https://example.org" title="t">y</a>' in page and "nothing" not in page
+
+
 def test_an_attached_picture_is_shown():
     cell = {"attachments": {"a.png": {"image/png": "QUJD"}}}
     assert '<img src="data:image/png;base64,QUJD"' in markdown2html({"cell": cell}, "![a](attachment:a.png)")
@@ -115,14 +130,14 @@ def test_terminal_text_holds_no_control():
     "share, most, expected", [(0, 3, 0), (1, 3, 3), (0.5, 3, 1.5), (1 / 3, 2, 0.67), (1, 0.1 + 0.2, 0.1 + 0.2)]
 )
 def test_points_follow_the_share(share, most, expected):
-    assert points(share, most) == expected
-    assert 0 <= points(share, most) <= most
+    assert score(share, most) == expected
+    assert 0 <= score(share, most) <= most
 
 
 @pytest.mark.parametrize("share", [-0.1, 1.01, float("nan"), float("inf")])
 def test_no_other_share_becomes_points(share):
     with pytest.raises(ValueError, match="between 0 and 1"):
-        points(share, 3)
+        score(share, 3)
 
 
 def test_a_note_survives_the_gradebook():

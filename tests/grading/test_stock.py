@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from autograder.grading.course import open_course
-from autograder.grading.results import Answer, Result
+from autograder.grading.results import QuestionResult, Result
 
 PLAIN = {"PATH": "/usr/bin:/bin", "HOME": os.environ.get("HOME", "/")}
 
@@ -58,7 +58,7 @@ def test_stock_autograde_refuses_without_a_sandbox(course_copy, small, released,
 
 
 def line(*notes, **more):
-    answers = tuple(Answer(f"scara.{name}", 0, 1, note, trouble) for name, note, trouble in notes)
+    answers = tuple(QuestionResult(f"scara.{name}", 0, 1, note, trouble) for name, note, trouble in notes)
     return Result("ann", "scara", more.pop("status", "graded"), answers=answers, **more)
 
 

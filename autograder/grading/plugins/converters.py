@@ -11,9 +11,11 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from copy import deepcopy
+from dataclasses import replace
 from datetime import datetime
 from fnmatch import fnmatchcase
 from pathlib import Path
+from typing import Any
 
 import nbformat
 from nbconvert.exporters import HTMLExporter, NotebookExporter
@@ -25,10 +27,10 @@ from traitlets.config import Config
 
 from autograder.sandbox import available
 
+from ..cells import NotebookRecord, check_cells, notebook_record, tracked_cells, write_record
 from ..inert import terminal_text
 from ..submission.execution import Execution
 from ..submission.reading import Unreadable, fingerprint, plain_bytes, read_submission
-from ..submission.restore import grade_id, is_check
 from .preprocessors import SandboxExecute
 
 TEMPLATES = str(Path(__file__).parent / "templates")
@@ -37,7 +39,8 @@ TEMPLATES = str(Path(__file__).parent / "templates")
 class SubmissionExporter(NotebookExporter):
     """Reads a submission strictly; one that cannot be read goes on as the released notebook with the reason."""
 
-    def from_filename(self, filename: str, resources: dict, **kw) -> tuple[str, dict]:
+    def from_filename(self, filename: str, resources: dict | None = None, **kw: Any) -> tuple[Any, dict]:
+        resources = resources or {}
         if not resources["autograder"]["sanitizing"]:
             return super().from_filename(filename, resources, **kw)
         released = Path(resources["autograder"]["released"])
@@ -45,13 +48,14 @@ class SubmissionExporter(NotebookExporter):
 
 
 def submission(path: Path, released: Path) -> nbformat.NotebookNode:
-    """The notebook handed in at `path`, or the released one with ``metadata.autograder.unreadable`` set."""
+    """The notebook handed in at `path`; the released one, with the reason in its record, if that cannot be read."""
     try:
         nb = read_submission(path)
     except Unreadable as reason:
         nb = deepcopy(nbformat.read(released, as_version=4))
-        nb.metadata["autograder"] = {"unreadable": terminal_text(str(reason))}
-    nb.metadata.autograder["submission"] = fingerprint(path.parent, released.read_bytes())
+        write_record(nb, NotebookRecord(unreadable=terminal_text(str(reason))))
+    stamp = fingerprint(path.parent, released.read_bytes())
+    write_record(nb, replace(notebook_record(nb), submission=stamp))
     return nb
 
 
@@ -124,7 +128,7 @@ class SubmissionAutograde(Autograde, ChosenStudents, _NothingElse):
         super().start()
 
     def init_notebooks(self) -> None:
-        self.notebooks = []
+        self.notebooks = list[str]()
         names = [name for name in notebook_names(self) if fnmatchcase(name, self.coursedir.notebook_id)]
         self.assignments = {
             folder: [os.path.join(folder, f"{name}.ipynb") for name in names] for folder in self._folders()
@@ -179,13 +183,13 @@ def refuse_unless_ready(converter: SubmissionAutograde) -> None:
         path = released_path(course, assignment, name)
         if not path.is_file():
             raise NotReady(f"{path} is missing; run: autograder release {assignment}")
-        cells = [cell for cell in nbformat.read(path, as_version=4).cells if grade_id(cell)]
-        checks = {grade_id(cell): (cell.metadata.nbgrader["points"], cell.source) for cell in cells if is_check(cell)}
+        nb = nbformat.read(path, as_version=4)
+        checks = {check: (cell.metadata.nbgrader["points"], cell.source) for check, cell in check_cells(nb).items()}
         with Gradebook(course.db_url, course.course_id) as gradebook:
             notebook = gradebook.find_notebook(name, assignment)
             sources = {cell.name: cell.source for cell in notebook.source_cells}
             known = {cell.name: (cell.max_score, sources.get(cell.name)) for cell in notebook.grade_cells}
-        if sources.keys() != {grade_id(cell) for cell in cells} or not checks.items() <= known.items():
+        if sources.keys() != tracked_cells(nb).keys() or not checks.items() <= known.items():
             raise NotReady(f"{path} is not what the gradebook knows; run: autograder release {assignment}")
 
 
@@ -209,6 +213,6 @@ class FeedbackPages(GenerateFeedback, ChosenStudents):
     """GenerateFeedback for given students."""
 
     def init_notebooks(self) -> None:
-        self.notebooks = []
+        self.notebooks = list[str]()
         found = {folder: sorted(map(str, Path(folder).glob("*.ipynb"))) for folder in self._folders()}
         self.assignments = {folder: notebooks for folder, notebooks in found.items() if notebooks}

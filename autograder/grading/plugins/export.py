@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterator
 
 from nbgrader.api import Assignment, Gradebook, MissingEntry, Student
 from nbgrader.plugins import ExportPlugin
 
-from ..entries import note_of
+from ..cells import question_id
+from ..entries import read_entries
 from ..inert import spreadsheet_cell
-from ..submission.restore import answer_id, question_id
 
 _ABOUT = ("assignment", "duedate", "timestamp", "student_id", "last_name", "first_name", "email")
 _SCORES = ("raw_score", "late_submission_penalty", "score", "max_score")
@@ -57,17 +56,8 @@ def _row(gradebook: Gradebook, assignment: Assignment, student: Student) -> dict
     row |= {"timestamp": submission.timestamp, "raw_score": submission.score, "late_submission_penalty": penalty}
     row |= {"score": max(0.0, submission.score - penalty), "max_score": assignment.max_score}
     notes = []
-    for check, score, _, note in results(submission):
-        row[question_id(check)] = score
-        if note not in (None, "right"):
-            notes.append(f"{question_id(check)}: {note}")
+    for entry in read_entries(submission):
+        row[question_id(entry.check)] = entry.score
+        if entry.note not in (None, "right"):
+            notes.append(f"{question_id(entry.check)}: {entry.note}")
     return row | {"notes": "; ".join(notes)}
-
-
-def results(submission) -> Iterator[tuple[str, float, float, str | None]]:
-    """Grade id, points, greatest points and answer note of each question of a submitted assignment, open problems left out."""
-    for notebook in submission.notebooks:
-        notes = {found.name: note_of(found.auto_comment) for found in notebook.comments}
-        judged = [grade for grade in notebook.grades if grade.cell.cell_type == "code"]
-        for grade in sorted(judged, key=lambda grade: grade.name):
-            yield grade.name, grade.score or 0.0, grade.max_score, notes.get(answer_id(grade.name))

@@ -7,14 +7,17 @@ generate_feedback`` converts the graded notebook to a page (`Summarize`).
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from dataclasses import fields, replace
 from pathlib import Path
+from typing import cast
 
 import nbformat
 from nbformat.notebooknode import NotebookNode
 from nbformat.v4 import new_output
 from nbgrader.api import Gradebook
 from nbgrader.preprocessors import GetGrades, NbGraderPreprocessor
-from traitlets import Enum, Float, Integer
+from traitlets import Enum, Float, Integer, TraitType
 
 from autograder import questions
 from autograder.judge import Variant, is_forgivable, judge
@@ -22,12 +25,31 @@ from autograder.judge.clusters import is_unexplained, keep
 from autograder.sandbox import Limits
 from dhkit.public import questions as public_questions
 
-from ..entries import comment, points
+from ..cells import (
+    CheckRecord,
+    answer_id,
+    check_cells,
+    check_name,
+    check_record,
+    notebook_record,
+    question_id,
+    tracked_cells,
+    write_record,
+)
+from ..entries import comment, score
 from ..inert import terminal_text
-from ..submission.execution import Execution, execute
-from ..submission.restore import answer_id, grade_id, is_check, question_id, restore
+from ..submission.execution import Execution, Mode, execute
+from ..submission.restore import restore
 
-_LIMITS = Limits()
+_TRAITS = {"bytes": Integer, "seconds": Float, "count": Integer}
+
+
+def _limit_traits() -> dict[str, TraitType]:
+    """One configurable trait for each of the sandbox's limits."""
+    return {
+        limit.name: _TRAITS[limit.metadata["unit"]](limit.default, help=limit.metadata["help"]).tag(config=True)
+        for limit in fields(Limits)
+    }
 
 
 class RestoreCells(NbGraderPreprocessor):
@@ -39,33 +61,34 @@ class RestoreCells(NbGraderPreprocessor):
 
 
 class SandboxExecute(NbGraderPreprocessor):
-    """Runs the notebook in the sandbox; leaves the evidence of each question in the resources."""
+    """Runs the notebook in the sandbox; leaves the evidence of each question in the resources.
+
+    Every field of `autograder.sandbox.Limits` can be configured, for example ``c.SandboxExecute.cell_seconds = 60``.
+    """
 
     mode = Enum(("bwrap", "none"), "bwrap", help="Sandbox to run students' code in.").tag(config=True)
-    memory = Integer(_LIMITS.memory, help="Bytes of memory for the whole sandbox.").tag(config=True)
-    processes = Integer(_LIMITS.processes, help="Processes and threads.").tag(config=True)
-    file_size = Integer(_LIMITS.file_size, help="Bytes a file may grow to.").tag(config=True)
-    cell_seconds = Float(_LIMITS.cell_seconds, help="Seconds for one cell.").tag(config=True)
-    notebook_seconds = Float(_LIMITS.notebook_seconds, help="Seconds for one notebook.").tag(config=True)
-    output_bytes = Integer(_LIMITS.output_bytes, help="Bytes of output of one notebook.").tag(config=True)
+    locals().update(_limit_traits())
 
     @property
     def limits(self) -> Limits:
-        names = ("memory", "processes", "file_size", "cell_seconds", "notebook_seconds", "output_bytes")
-        return Limits(**{name: getattr(self, name) for name in names})
+        """The limits as they are configured; `ValueError` for one that makes no sense."""
+        return Limits(**{limit.name: getattr(self, limit.name) for limit in fields(Limits)})
+
+    def run(self, nb: NotebookNode, folders: Iterable[Path], student: str, course: Path) -> Execution:
+        """Run a restored notebook with the files of `folders` beside it; the sandbox does not show the `course`."""
+        return execute(nb, folders, student, self.limits, cast(Mode, self.mode), (course,))
 
     def preprocess(self, nb: NotebookNode, resources: dict) -> tuple[NotebookNode, dict]:
         ours = resources["autograder"]
         execution: Execution | None = ours.get("execution")
-        if execution is None or execution.fingerprint != nb.metadata.autograder.get("submission"):
+        if execution is None or execution.fingerprint != notebook_record(nb).submission:
             folders = [Path(ours["folder"]), Path(ours["released"]).parent]
-            student, hidden = resources["nbgrader"]["student"], (Path(ours["root"]),)
-            execution = execute(nb, folders, student, self.limits, self.mode, hidden)
+            execution = self.run(nb, folders, resources["nbgrader"]["student"], Path(ours["root"]))
         for count, index in enumerate(sorted(execution.outputs), 1):
             nb.cells[index].outputs = execution.outputs[index]
             nb.cells[index].execution_count = count
         if execution.message:
-            nb.metadata.autograder["trouble"] = terminal_text(execution.message)
+            write_record(nb, replace(notebook_record(nb), trouble=terminal_text(execution.message)))
         ours["evidence"] = execution.evidence
         return nb, resources
 
@@ -77,24 +100,22 @@ class JudgeAnswers(NbGraderPreprocessor):
     """
 
     def preprocess_cell(self, cell: NotebookNode, resources: dict, index: int) -> tuple[NotebookNode, dict]:
-        if not is_check(cell):
+        if (check := check_name(cell)) is None:
             return cell, resources
-        evidence = resources["autograder"]["evidence"][grade_id(cell)]
-        question = questions.find(question_id(grade_id(cell)))
+        evidence = resources["autograder"]["evidence"][check]
+        question = questions.find(question_id(check))
         earlier = resources["autograder"].setdefault("forgivable", {})
         verdict = judge(question, evidence, Variant(resources["nbgrader"]["student"]), earlier)
         if is_forgivable(verdict):
             earlier[question.id] = evidence
-        earned = points(verdict.share, float(cell.metadata.nbgrader["points"]))
+        earned = score(verdict.share, float(cell.metadata.nbgrader["points"]))
         cell.outputs = [
             new_output("display_data", data={"text/markdown": verdict.feedback, "text/plain": verdict.feedback}),
             new_output("execute_result", data={"text/plain": str(earned)}, execution_count=cell.execution_count),
         ]
-        cell.metadata["autograder"] = {"note": verdict.note, "share": verdict.share}
-        if evidence.trouble:
-            cell.metadata["autograder"]["trouble"] = terminal_text(evidence.trouble)
-        if is_unexplained(verdict.note) and (answer := keep(question.id, evidence.packet)):
-            cell.metadata["autograder"]["answer"] = answer
+        trouble = terminal_text(evidence.trouble) if evidence.trouble else None
+        answer = keep(question.id, evidence.packet) if is_unexplained(verdict.note) else None
+        write_record(cell, CheckRecord(verdict.note, verdict.share, trouble, answer))
         return cell, resources
 
 
@@ -103,13 +124,13 @@ class SaveNotes(NbGraderPreprocessor):
 
     def preprocess(self, nb: NotebookNode, resources: dict) -> tuple[NotebookNode, dict]:
         names = resources["nbgrader"]
-        answers = {grade_id(cell) for cell in nb.cells}
+        tracked = tracked_cells(nb)
         with Gradebook(names["db_url"]) as gradebook:
-            for check in filter(is_check, nb.cells):
-                answer = answer_id(grade_id(check))
-                if answer in answers:
+            for check, cell in check_cells(nb).items():
+                record, answer = check_record(cell), answer_id(check)
+                if record is not None and answer in tracked:
                     found = gradebook.find_comment(answer, names["notebook"], names["assignment"], names["student"])
-                    found.auto_comment = comment(check.metadata.autograder["note"])
+                    found.auto_comment = comment(record.note)
             gradebook.db.commit()
         return nb, resources
 
@@ -119,17 +140,16 @@ class Summarize(GetGrades):
 
     def preprocess(self, nb: NotebookNode, resources: dict) -> tuple[NotebookNode, dict]:
         nb, resources = super().preprocess(nb, resources)
-        ours = nb.metadata.get("autograder", {})
         resources["autograder"] = {
-            "questions": [_summary(cell) for cell in filter(is_check, nb.cells)],
-            "said": [ours[key] for key in ("unreadable", "trouble") if ours.get(key)] + list(ours.get("repairs", ())),
+            "questions": [_summary(cell) for cell in check_cells(nb).values()],
+            "said": notebook_record(nb).remarks(),
         }
         return nb, resources
 
 
 def _summary(check: NotebookNode) -> dict:
     marks = check.metadata.nbgrader
-    known = public_questions().get(question_id(marks["grade_id"]))
+    known, record = public_questions().get(question_id(marks["grade_id"])), check_record(check)
     feedback = next(
         (output.data["text/markdown"] for output in check.outputs if output.output_type == "display_data"), ""
     )
@@ -138,6 +158,6 @@ def _summary(check: NotebookNode) -> dict:
         "title": known.title if known else marks["grade_id"],
         "score": marks["score"],
         "points": marks["points"],
-        "note": check.metadata.get("autograder", {}).get("note", ""),
+        "note": record.note if record else "",
         "line": " ".join(feedback.split()),
     }

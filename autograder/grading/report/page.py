@@ -55,10 +55,10 @@ def _students(names: Sequence[str]) -> str:
 
 def tables(report: ClassReport) -> dict[str, list[Sequence]]:
     """Rows of each CSV file, the names of the columns first."""
-    about = ("question", "title", "points", "submissions", "mean", "median", "full", "not_attempted", "unexplained")
-    questions = [(*about, "discrimination")]
-    notes = [("question", "note", "count")]
-    answers = [("question", "size", "compared_by", "students", "said", "answer")]
+    about = ("question", "title", "max_score", "submissions", "mean", "median", "full", "not_attempted", "unexplained")
+    questions: list[Sequence] = [(*about, "discrimination")]
+    notes: list[Sequence] = [("question", "note", "count")]
+    answers: list[Sequence] = [("question", "size", "compared_by", "students", "said", "answer")]
     for question in report.questions:
         numbers = [
             value if isinstance(value, str) else round(value, 4)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import io
 from collections.abc import Sequence
+from typing import Any
 
 import matplotlib
 from matplotlib.axes import Axes
@@ -15,7 +16,7 @@ from dhkit.strokes import AXIS_COLOURS, FAINT, INK, SOFT, STYLE
 
 from .statistics import NOTHING_CAME, RIGHT, TELLS, TELLS_WELL, ClassReport, QuestionReport
 
-_STYLE = {**STYLE, "hatch.linewidth": 0.8, "text.parse_math": False}
+_STYLE: dict[Any, Any] = {**STYLE, "hatch.linewidth": 0.8, "text.parse_math": False}
 _NO_METADATA = {"Creator": None, "Date": None, "Format": None, "Type": None}
 _MOST_NOTES = 9
 
@@ -26,10 +27,10 @@ def overview(report: ClassReport) -> str:
         rows = len(report.questions)
         figure = Figure(figsize=(10, 1.3 + 0.34 * max(rows, 5)), layout="constrained")
         total, share, tells = figure.subplots(1, 3, width_ratios=(3, 3.4, 3))
-        _histogram(total, report.totals, report.points)
+        _histogram(total, report.totals, report.max_score)
         total.set_title("total points", loc="left")
         names = [question.question.partition(".")[2] or question.question for question in report.questions]
-        means = [question.mean / question.points for question in report.questions]
+        means = [question.mean / question.max_score for question in report.questions]
         share.barh(names, means, color=AXIS_COLOURS["z"], height=0.62)
         share.barh(names, [1] * rows, fill=False, edgecolor=SOFT, lw=0.7, height=0.62)
         for row, mean in enumerate(means):
@@ -55,7 +56,7 @@ def question_plot(question: QuestionReport) -> str:
             shown.append((f"{len(rest)} more notes", sum(count for _, count in rest)))
         figure = Figure(figsize=(10, 1.0 + 0.3 * max(len(shown), 5)), layout="constrained")
         left, right = figure.subplots(1, 2, width_ratios=(3, 4))
-        _histogram(left, question.scores, question.points)
+        _histogram(left, question.scores, question.max_score)
         left.set_title("points", loc="left")
         bars = right.barh([note for note, _ in shown], [count for _, count in shown], height=0.66)
         for bar, (note, _) in zip(bars, shown):

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from statistics import StatisticsError, correlation, mean, median
 
+from nbformat.notebooknode import NotebookNode
 from nbgrader.api import Gradebook, MissingEntry
 
 from autograder import questions
@@ -17,11 +18,11 @@ from autograder.judge.clusters import Attempt, Cluster, cluster, is_unexplained,
 from autograder.judge.decode import Value
 from dhkit.public import questions as public_questions
 
+from ..cells import check_cells, check_record, question_id
 from ..course import Course, CourseError
+from ..entries import read_entries
 from ..inert import terminal_text
-from ..plugins.export import results
 from ..results import graded_notebooks
-from ..submission.restore import grade_id, is_check, question_id
 
 UNNOTED = "unnoted"
 RIGHT = ("right", "right_from_earlier")
@@ -53,7 +54,7 @@ class QuestionReport:
 
     question: str
     title: str
-    points: float
+    max_score: float
     scores: tuple[float, ...]
     notes: Counter[str]
     discrimination: float | None = None
@@ -74,7 +75,7 @@ class QuestionReport:
     @property
     def full(self) -> float:
         """Share of submissions with all points."""
-        return sum(score >= self.points for score in self.scores) / len(self.scores)
+        return sum(score >= self.max_score for score in self.scores) / len(self.scores)
 
     @property
     def not_attempted(self) -> float:
@@ -128,8 +129,9 @@ class ClassReport:
     questions: tuple[QuestionReport, ...]
 
     @property
-    def points(self) -> float:
-        return sum(question.points for question in self.questions)
+    def max_score(self) -> float:
+        """The most points that can be had."""
+        return sum(question.max_score for question in self.questions)
 
 
 def discrimination(scores: Sequence[float], rests: Sequence[float]) -> float | None:
@@ -157,30 +159,31 @@ def class_report(course: Course, exercise: str) -> ClassReport:
     """What the gradebook and the graded notebooks say about `exercise`; `CourseError` if nothing was graded yet."""
     course.choose(exercise)
     rows: dict[str, dict[str, tuple[float, str]]] = {}
-    points: dict[str, float] = {}
+    max_scores: dict[str, float] = {}
     with Gradebook(course.app.coursedir.db_url, course.app.coursedir.course_id) as gradebook:
         try:
             submissions = gradebook.find_assignment(exercise).submissions
         except MissingEntry:
             submissions = []
         for submission in submissions:
-            for name, score, most, note in results(submission):
-                if most > 0:
-                    rows.setdefault(submission.student.id, {})[name] = score, note or UNNOTED
-                    points[name] = most
+            for entry in read_entries(submission):
+                if entry.max_score > 0:
+                    rows.setdefault(submission.student.id, {})[entry.check] = entry.score, entry.note or UNNOTED
+                    max_scores[entry.check] = entry.max_score
     if not rows:
         raise CourseError(f"nothing was graded for {exercise} yet; run: autograder grade {exercise}")
     attempts = _attempts(course, exercise, rows)
     order = list(public_questions())
     names = sorted(
-        points, key=lambda name: (order.index(question_id(name)) if question_id(name) in order else len(order), name)
+        max_scores,
+        key=lambda name: (order.index(question_id(name)) if question_id(name) in order else len(order), name),
     )
-    found = [_question_report(name, points[name], rows, attempts.get(name, [])) for name in names]
+    found = [_question_report(name, max_scores[name], rows, attempts.get(name, [])) for name in names]
     totals = tuple(sum(score for score, _ in row.values()) for row in rows.values())
     return ClassReport(exercise, totals, tuple(found))
 
 
-def _question_report(name: str, points: float, rows: dict[str, dict], attempts: list[Attempt]) -> QuestionReport:
+def _question_report(name: str, max_score: float, rows: dict[str, dict], attempts: list[Attempt]) -> QuestionReport:
     rows = {student: row for student, row in rows.items() if name in row}
     scores = tuple(row[name][0] for row in rows.values())
     rests = [sum(score for other, (score, _) in row.items() if other != name) for row in rows.values()]
@@ -189,7 +192,7 @@ def _question_report(name: str, points: float, rows: dict[str, dict], attempts: 
     return QuestionReport(
         question_id(name),
         public.title if public else name,
-        points,
+        max_score,
         scores,
         notes,
         discrimination(scores, rests),
@@ -210,16 +213,17 @@ def _attempts(course: Course, exercise: str, rows: dict[str, dict[str, tuple[flo
     for student, row in rows.items():
         wanted = {name for name, (_, note) in row.items() if is_unexplained(note)}
         notebooks = graded_notebooks(course, student, exercise) if wanted else []
-        checks = {grade_id(cell): cell for nb in notebooks for cell in nb.cells if is_check(cell)}
+        checks = {check: cell for nb in notebooks for check, cell in check_cells(nb).items()}
         for name in sorted(wanted & checks.keys()):
             question, cell = _question(name), checks[name]
-            answer = kept(question_id(name), cell.metadata.get("autograder", {}).get("answer"))
+            record = check_record(cell)
+            answer = kept(question_id(name), record and record.answer)
             right = right_answer(question, student) if question else None
             found.setdefault(name, []).append(Attempt(student, _said(cell.outputs), answer, right))
     return found
 
 
-def _said(outputs: Iterable[dict]) -> str:
+def _said(outputs: Iterable[NotebookNode]) -> str:
     """What the judge said on a check cell, without Markdown."""
     feedback = next(
         (output.data.get("text/plain", "") for output in outputs if output.output_type == "display_data"), ""

@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Literal
 
 from nbformat.notebooknode import NotebookNode
 
@@ -16,9 +17,11 @@ from autograder import questions
 from autograder.judge import MIME, Evidence, Variant
 from autograder.sandbox import CellRun, Limits, Run, run_notebook
 
+from ..cells import answer_id, check_cells, check_name, grade_id, is_check, notebook_record, question_id
 from ..inert import inert_outputs
 from .reading import MAX_FOLDER_BYTES, plain_files
-from .restore import answer_id, grade_id, is_check, question_id
+
+Mode = Literal["bwrap", "none"]
 
 
 @dataclass(frozen=True)
@@ -48,7 +51,7 @@ class Execution:
 
 
 def execute(
-    nb: NotebookNode, folders: Iterable[Path], student: str, limits: Limits, mode: str, hidden: tuple[Path, ...] = ()
+    nb: NotebookNode, folders: Iterable[Path], student: str, limits: Limits, mode: Mode, hidden: tuple[Path, ...] = ()
 ) -> Execution:
     """Run the restored notebook `nb` of `student`.
 
@@ -66,18 +69,19 @@ def execute(
     autograder.sandbox.SandboxUnavailable
         If the sandbox cannot be had.
     """
-    stamp = nb.metadata.autograder.get("submission", "")
-    if reason := nb.metadata.autograder.get("unreadable"):
-        checks = (grade_id(cell) for cell in nb.cells if is_check(cell))
-        return Execution(stamp, {}, {name: Evidence(None, None, reason, "unreadable") for name in checks})
+    record = notebook_record(nb)
+    if reason := record.unreadable:
+        unread = {name: Evidence(None, None, reason, "unreadable") for name in check_cells(nb)}
+        return Execution(record.submission, {}, unread)
     sent: dict[int, list] = {}
 
     def probe(index: int, cell: NotebookNode, outputs: list) -> str | None:
-        arguments = _arguments(cell, student, stamp, outputs)
-        if arguments is None:
+        check = check_name(cell)
+        arguments = _arguments(check, student, record.submission, outputs) if check else None
+        if check is None or arguments is None:
             return None
         sent[index] = arguments
-        call = f"answer_probes({question_id(grade_id(cell))!r}, {json.dumps(arguments)!r})"
+        call = f"answer_probes({question_id(check)!r}, {json.dumps(arguments)!r})"
         return f"from dhkit.check import answer_probes\n{call}"
 
     with TemporaryDirectory(prefix="autograder-") as work:
@@ -85,9 +89,9 @@ def execute(
         run = run_notebook(nb, workdir=Path(work), limits=limits, mode=mode, followup=probe, hidden=hidden)
     counts = {index: count for count, index in enumerate(sorted(run.cells), 1)}
     outputs = {index: inert_outputs(cell.outputs, counts[index]) for index, cell in run.cells.items()}
-    checks = [index for index in run.cells if is_check(nb.cells[index])]
-    evidence = {grade_id(nb.cells[index]): _evidence(nb, index, run, sent) for index in checks}
-    return Execution(stamp, outputs, evidence, run.message)
+    checks = {index: name for index in run.cells if (name := check_name(nb.cells[index]))}
+    evidence = {name: _evidence(nb, index, name, run, sent) for index, name in checks.items()}
+    return Execution(record.submission, outputs, evidence, run.message)
 
 
 def copy_plain_files(folders: Iterable[Path], destination: Path) -> None:
@@ -102,31 +106,29 @@ def copy_plain_files(folders: Iterable[Path], destination: Path) -> None:
                 shutil.copyfile(path, target, follow_symlinks=False)
 
 
-def _arguments(cell: NotebookNode, student: str, stamp: str, outputs: list) -> list | None:
-    """Arguments to try a student's function with, None if the cell handed in no function."""
-    if not is_check(cell):
-        return None
+def _arguments(check: str, student: str, stamp: str, outputs: list) -> list | None:
+    """Arguments to try a student's function with, None if the check cell handed in no function."""
     packet = _last_packet(outputs)
     answer = packet.get("answer") if isinstance(packet, dict) else None
     if not isinstance(answer, dict) or "function" not in answer:
         return None
-    question = questions.find(question_id(grade_id(cell)))
+    question = questions.find(question_id(check))
     # The seed follows from the submission: grading it again, here or with nbgrader, asks the same things.
     seed = int.from_bytes(hashlib.sha256(f"{stamp} {question.id}".encode()).digest()[:8])
     return question.probes(Variant(student), seed)
 
 
-def _evidence(nb: NotebookNode, index: int, run: Run, sent: dict[int, list]) -> Evidence:
-    trouble = _first_trouble(nb, index, run)
+def _evidence(nb: NotebookNode, index: int, check: str, run: Run, sent: dict[int, list]) -> Evidence:
+    trouble = _first_trouble(nb, index, check, run)
     probes = (sent[index], _last_packet(run.followups.get(index, []))) if index in sent else None
     packet = _last_packet(run.cells[index].outputs)
     return Evidence(packet, probes, trouble.message, trouble.status) if trouble else Evidence(packet, probes)
 
 
-def _first_trouble(nb: NotebookNode, index: int, run: Run) -> CellRun | None:
+def _first_trouble(nb: NotebookNode, index: int, check: str, run: Run) -> CellRun | None:
     """The first cell of a question that did not end well: an answer that looped explains a check without a name."""
     start = index
-    while start > 0 and grade_id(nb.cells[start]) != answer_id(grade_id(nb.cells[index])):
+    while start > 0 and grade_id(nb.cells[start]) != answer_id(check):
         start -= 1
         if is_check(nb.cells[start]):
             start = index

@@ -19,6 +19,8 @@ from pathlib import Path
 from nbformat.notebooknode import NotebookNode
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_raw_cell
 
+from ..cells import NotebookRecord, write_record
+
 MAX_BYTES = 10 << 20
 MAX_CELLS = 1000
 MAX_SOURCE = 500_000
@@ -129,7 +131,9 @@ def _notebook(content: object) -> NotebookNode:
     cells = [_cell(number, cell) for number, cell in enumerate(content["cells"], 1)]
     if (length := sum(len(cell.source) for cell in cells)) > MAX_SOURCE:
         raise Unreadable(f"the notebook holds {length:,} characters of text, without its outputs")
-    return new_notebook(cells=cells, metadata={"autograder": {"kernel": _kernel(content.get("metadata"))}})
+    nb = new_notebook(cells=cells)
+    write_record(nb, NotebookRecord(kernel=_kernel(content.get("metadata"))))
+    return nb
 
 
 def _kernel(metadata: object) -> str | None:

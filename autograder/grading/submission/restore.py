@@ -8,33 +8,24 @@ carry the released source and stand after their answer, and nothing of the stude
 from __future__ import annotations
 
 from copy import deepcopy
+from dataclasses import replace
 
 from nbformat.notebooknode import NotebookNode
 from nbformat.v4 import new_notebook
 
+from ..cells import (
+    answer_id,
+    check_of_answer,
+    grade_id,
+    is_check,
+    keeps_source,
+    notebook_record,
+    tracked_cells,
+    write_record,
+)
+
 MISSING = "This cell was missing from the notebook that was handed in."
 MAX_REPAIRS = 6
-
-
-def grade_id(cell: NotebookNode) -> str | None:
-    """The nbgrader id of a cell, None for an ordinary one."""
-    return cell.metadata.get("nbgrader", {}).get("grade_id")
-
-
-def is_check(cell: NotebookNode) -> bool:
-    """True for a locked code cell that earns points: the check cell of a question."""
-    marks = cell.metadata.get("nbgrader", {})
-    return cell.cell_type == "code" and bool(marks.get("grade")) and not marks.get("solution")
-
-
-def question_id(check: str) -> str:
-    """``"scara-T04"`` -> ``"scara.T04"``."""
-    return check.replace("-", ".", 1)
-
-
-def answer_id(check: str) -> str:
-    """Id of the answer cell that belongs to a check cell."""
-    return f"{check}-answer"
 
 
 def restore(submitted: NotebookNode, released: NotebookNode) -> NotebookNode:
@@ -50,27 +41,27 @@ def restore(submitted: NotebookNode, released: NotebookNode) -> NotebookNode:
     Returns
     -------
     NotebookNode
-        With the released metadata; ``metadata.autograder.repairs`` lists in words what had to be mended.
+        With the released metadata; the ``repairs`` of its record list in words what had to be mended.
     """
-    tracked = {grade_id(cell): cell for cell in released.cells if grade_id(cell)}
+    tracked = tracked_cells(released)
     chosen, repairs = _choose(submitted, tracked)
     cells: list[NotebookNode] = []
     for index, cell in enumerate(submitted.cells):
-        name = grade_id(cell)
+        name = grade_id(cell) or ""
         if name in tracked and chosen.get(name) == index:
             cells.append(_rebuilt(tracked[name], cell.source))
-        elif name not in tracked or _keeps_source(tracked[name]) or cell.source != tracked[name].source:
+        elif name not in tracked or keeps_source(tracked[name]) or cell.source != tracked[name].source:
             cells.append(_untracked(cell))
     _put_back(cells, tracked, chosen)
     for number, cell in enumerate(cell for cell in cells if grade_id(cell) is None):
         cell["id"] = f"extra-{number}"
-    metadata = deepcopy(released.metadata)
-    own = submitted.metadata.get("autograder", {})
-    repairs += _kernel_repair(own.get("kernel"), released)
+    record = notebook_record(submitted)
+    repairs += _kernel_repair(record.kernel, released)
     if len(repairs) > MAX_REPAIRS:
         repairs[MAX_REPAIRS - 1 :] = [f"and {len(repairs) - MAX_REPAIRS + 1} more of this kind"]
-    metadata["autograder"] = {**own, "repairs": repairs}
-    return new_notebook(cells=cells, metadata=metadata)
+    nb = new_notebook(cells=cells, metadata=deepcopy(released.metadata))
+    write_record(nb, replace(record, repairs=tuple(repairs)))
+    return nb
 
 
 def _choose(submitted: NotebookNode, tracked: dict[str, NotebookNode]) -> tuple[dict[str, int], list[str]]:
@@ -81,9 +72,10 @@ def _choose(submitted: NotebookNode, tracked: dict[str, NotebookNode]) -> tuple[
     """
     claims: dict[str, list[int]] = {}
     for index, cell in enumerate(submitted.cells):
-        if grade_id(cell) in tracked:
-            claims.setdefault(grade_id(cell), []).append(index)
-    chosen, repairs = {}, []
+        if (name := grade_id(cell)) is not None and name in tracked:
+            claims.setdefault(name, []).append(index)
+    chosen: dict[str, int] = {}
+    repairs: list[str] = []
     for name, cell in tracked.items():
         places = claims.get(name, [])
         if is_check(cell) and (answers := claims.get(answer_id(name), [])):
@@ -105,7 +97,7 @@ def _repairs(name: str, cell: NotebookNode, places: list[int], place: int | None
         found.append(f"{which} was there {len(places)} times")
     if place is None:
         found.append(f"{which} stood before its answer")
-    elif not _keeps_source(cell) and submitted.cells[place].source != cell.source:
+    elif not keeps_source(cell) and submitted.cells[place].source != cell.source:
         found.append(f"{which} had been edited")
     return found
 
@@ -121,21 +113,16 @@ def _in_words(name: str, cell: NotebookNode) -> str:
     short = name.partition("-")[2] or name
     if is_check(cell):
         return f"the check cell of {short}"
-    if name.endswith("-answer"):
-        return f"the answer cell of {short.removesuffix('-answer')}"
-    if _keeps_source(cell):
+    if (answered := check_of_answer(short)) is not None:
+        return f"the answer cell of {answered}"
+    if keeps_source(cell):
         return "the answer to the open problem"
     return f"the locked cell {name}"
 
 
-def _keeps_source(cell: NotebookNode) -> bool:
-    marks = cell.metadata.nbgrader
-    return bool(marks.get("solution") or marks.get("task"))
-
-
 def _rebuilt(original: NotebookNode, source: str) -> NotebookNode:
     cell = _emptied(original)
-    if _keeps_source(original):
+    if keeps_source(original):
         cell.source = source
     return cell
 
@@ -155,16 +142,16 @@ def _untracked(cell: NotebookNode) -> NotebookNode:
 
 def _put_back(cells: list[NotebookNode], tracked: dict[str, NotebookNode], chosen: dict[str, int]) -> None:
     """Insert the tracked cells that the submission lacks."""
-    previous = None
+    previous = ""
     for name, original in tracked.items():
         if name not in chosen:
-            where = {grade_id(cell): index for index, cell in enumerate(cells) if grade_id(cell)}
+            where = {found: index for index, cell in enumerate(cells) if (found := grade_id(cell))}
             cell = _emptied(original)
             if is_check(original):
                 place = _end_of_region(cells, where.get(answer_id(name), where.get(previous, -1)))
-            elif _keeps_source(original):
+            elif keeps_source(original):
                 cell.source = f"# {MISSING}" if cell.cell_type == "code" else MISSING
-                check = where.get(name.removesuffix("-answer"))
+                check = where.get(check_of_answer(name) or name)
                 place = _end_of_region(cells, where.get(previous, -1)) if check is None else check
             else:
                 place = where.get(previous, -1) + 1

@@ -113,7 +113,7 @@ def test_discrimination_has_its_known_values(scores, rests, expected):
 def test_each_question_is_summed_up_over_the_class(report):
     first, second, third = report.questions
     assert [question.question for question in report.questions] == ["scara.T04", "scara.d2_sign", "scara.forward"]
-    assert report.points == 20 and sorted(report.totals)[-1] == 14 and len(report.totals) == 7
+    assert report.max_score == 20 and sorted(report.totals)[-1] == 14 and len(report.totals) == 7
     assert first.notes == {"right": 1, "partly_right": 3, "sign_of_d2": 1, "not_attempted": 1, "malformed": 1}
     assert second.notes == {"right": 3, "nothing_matched": 3, "malformed": 1}
     assert (first.full, first.not_attempted, first.unexplained) == (1 / 7, 1 / 7, 4)

@@ -6,6 +6,7 @@ import os
 import nbformat
 import pytest
 
+from autograder.grading.cells import NotebookRecord, notebook_record
 from autograder.grading.submission import reading
 from autograder.grading.submission.reading import Unreadable, fingerprint, plain_files, read_submission
 
@@ -108,7 +109,7 @@ def test_only_type_source_pictures_and_claims_survive(path):
     nbformat.validate(nb)
     assert nb.cells[0].source == "x = 1\n" and nb.cells[0].metadata == {"nbgrader": {"grade_id": "scara-T04"}}
     assert nb.cells[1].metadata == {} and nb.cells[1].attachments == {"a.png": {"image/png": "QUJD"}}
-    assert nb.metadata == {"autograder": {"kernel": "julia?"}}
+    assert notebook_record(nb) == NotebookRecord(kernel="julia?") and nb.metadata.keys() == {"autograder"}
 
 
 @pytest.mark.parametrize("claim", [1, None, [], {"a": 1}, True])

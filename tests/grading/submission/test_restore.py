@@ -7,7 +7,8 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell
 
-from autograder.grading.submission.restore import grade_id, is_check, restore
+from autograder.grading.cells import grade_id, is_check, notebook_record
+from autograder.grading.submission.restore import restore
 
 CHECKS = ("scara-T04", "scara-d2_sign", "scara-forward")
 
@@ -41,7 +42,7 @@ def sound(nb, released):
 
 
 def repairs(nb):
-    return nb.metadata.autograder.repairs
+    return list(notebook_record(nb).repairs)
 
 
 def test_an_honest_notebook_stays_as_it_is(right, released):
