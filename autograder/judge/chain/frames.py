@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from itertools import accumulate
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -64,33 +65,34 @@ class JudgedChain:
 
     @classmethod
     def of_entries(
-        cls, entries: Sequence[object], joints: Sequence[str], points: Mapping[str, np.ndarray]
+        cls, entries: Sequence[object], joints: Sequence[str], samples: Mapping[str, np.ndarray]
     ) -> JudgedChain:
         """From decoded entries, row after row of (sigma, a, alpha, d, theta).
 
-        `joints` names the joint variables in order; `points` gives the other symbols their values, one (K,) array
+        `joints` names the joint variables in order; `samples` gives the other symbols their values, one (K,) array
         each (values it has for joints are not used). Raises `NotAChain`.
         """
         count, rest = divmod(len(entries), _WIDTH)
         if rest or not 0 < count <= MAX_ROWS:
             raise NotAChain(f"a table has rows of {_WIDTH} entries, and at most {MAX_ROWS} rows")
-        values = _Values(joints, points)
+        values = _Values(joints, samples)
         rows = [_row(i + 1, entries[_WIDTH * i : _WIDTH * (i + 1)], values) for i in range(count)]
         return cls._of_rows(values.joints, rows)
 
     @classmethod
-    def of_table(cls, table: DHTable, points: Mapping[str, np.ndarray] | None = None) -> JudgedChain:
+    def of_table(cls, table: DHTable, samples: Mapping[str, np.ndarray] | None = None) -> JudgedChain:
         """From a table of the reference solver, base and tool included; by default at the table's own values."""
-        points = points or {name: np.array([value], float) for name, value in table.values.items()}
+        samples = samples or {name: np.array([value], float) for name, value in table.values.items()}
 
-        def decoded(value) -> tuple:
-            return sum(decode_answer(wire.packet("table", answer=wire.encode(value)), "table"), ())
+        def decoded(value: object) -> list[Expression]:
+            rows: Any = decode_answer(wire.packet("table", answer=wire.encode(value)), "table")
+            return [entry for row in rows for entry in row]
 
-        def transform(matrix) -> np.ndarray:
-            return np.stack([evaluate(entry, points).real for entry in decoded(matrix)], axis=-1).reshape(-1, 4, 4)
+        def transform(matrix: object) -> np.ndarray:
+            return np.stack([evaluate(entry, samples).real for entry in decoded(matrix)], axis=-1).reshape(-1, 4, 4)
 
         entries = decoded([[row.sigma, *row.parameters] for row in table.rows])
-        chain = cls.of_entries(entries, [joint.name for joint in table.joints], points)
+        chain = cls.of_entries(entries, [joint.name for joint in table.joints], samples)
         base, tool = transform(table.base), transform(table.tool)
         return replace(chain, frames=base[:, None] @ chain.frames, end=base @ chain.end @ tool)
 
@@ -100,11 +102,10 @@ class JudgedChain:
         driven = np.flatnonzero(coefficients.any(axis=1))
         if len(driven) > MAX_JOINTS:
             raise NotAChain(f"the table has {len(driven)} joints; at most {MAX_JOINTS} are compared")
-        frames = [transforms(*(np.array(column) for column in np.broadcast_arrays(*row[2:]))) for row in rows]
-        for i in range(1, len(frames)):
-            frames[i] = frames[i - 1] @ frames[i]
-        points = max(len(frame) for frame in frames)
-        frames = np.stack([np.broadcast_to(frame, (points, 4, 4)) for frame in frames], axis=1)
+        steps = [transforms(*(np.array(column) for column in np.broadcast_arrays(*row[2:]))) for row in rows]
+        each = list(accumulate(steps, np.matmul))
+        samples = max(len(frame) for frame in each)
+        frames = np.stack([np.broadcast_to(frame, (samples, 4, 4)) for frame in each], axis=1)
         prismatic = tuple(bool(rows[i][1]) for i in driven)
         return cls(variables, prismatic, coefficients[driven], frames[:, driven], frames[:, -1])
 
@@ -136,6 +137,11 @@ class JudgedChain:
         return np.ascontiguousarray(self.frames[..., :3, 3])
 
     @cached_property
+    def size(self) -> float:
+        """The larger of 1 m and the largest coordinate of an origin or of the end, metres."""
+        return max(1.0, np.abs(self.end[:, :3, 3]).max(), np.abs(self.origins).max(initial=0))
+
+    @cached_property
     def ends_with_joint(self) -> bool:
         """True if the frame of the last joint is the end of the chain."""
         return bool(np.abs(self.frames[:, -1] - self.end).max() < 1e-12)
@@ -144,17 +150,17 @@ class JudgedChain:
 class _Values:
     """Evaluates entries at the sample points, for several values of the joint variables at a time."""
 
-    def __init__(self, joints: Sequence[str], points: Mapping[str, np.ndarray]) -> None:
+    def __init__(self, joints: Sequence[str], samples: Mapping[str, np.ndarray]) -> None:
         self.joints = tuple(joints)
-        self.points = {name: np.asarray(value, float) for name, value in points.items() if name not in self.joints}
-        size = len(next(iter(self.points.values()), np.zeros(1)))
+        self.samples = {name: np.asarray(value, float) for name, value in samples.items() if name not in self.joints}
+        size = len(next(iter(self.samples.values()), np.zeros(1)))
         count = len(self.joints)
         steps = np.full((count + 1 + len(_CHECKS), count), _BASE)
         steps[1 : count + 1] += np.eye(count)
         # Different values for different joints, so that errors of two joints cannot cancel.
         steps[count + 1 :] = np.outer(_CHECKS, 1 + 0.31 * np.arange(count))
         self.steps = steps
-        self.sweep = {name: np.tile(value, len(steps)) for name, value in self.points.items()}
+        self.sweep = {name: np.tile(value, len(steps)) for name, value in self.samples.items()}
         self.sweep |= {name: np.repeat(steps[:, j], size) for j, name in enumerate(self.joints)}
 
     def affine(self, entry: Expression) -> tuple[np.ndarray, np.ndarray] | None:
@@ -164,7 +170,7 @@ class _Values:
             return nothing, np.array([float(entry.value)])
         names = symbols(entry)
         if names.isdisjoint(self.joints):
-            constant = evaluate(entry, self.points if names else {})
+            constant = evaluate(entry, self.samples if names else {})
             return (nothing, constant.real) if _real(constant) else None
         values = evaluate(entry, self.sweep).reshape(len(self.steps), -1)
         if not _real(values):

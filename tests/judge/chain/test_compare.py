@@ -763,17 +763,17 @@ def test_a_difference_at_one_sample_point_is_enough():
 
 
 def test_twelve_joints_with_free_senses_are_no_exponential_search(monkeypatch):
-    from autograder.judge.chain import alignment
+    from autograder.judge.chain import shifts
 
     steps = 0
-    met = alignment._Demands.met
+    met = shifts.SegmentDemands.met
 
     def counted(*args):
         nonlocal steps
         steps += 1
         return met(*args)
 
-    monkeypatch.setattr(alignment._Demands, "met", counted)
+    monkeypatch.setattr(shifts.SegmentDemands, "met", counted)
     angles = sympy.symbols("t1:13")
     rows = [[0, 0, RIGHT, 0, angle] for angle in angles]
     turned = [[0, 0, RIGHT * (-1) ** (i // 2), 0, angle + i] for i, angle in enumerate(angles)]
