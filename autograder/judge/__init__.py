@@ -7,19 +7,18 @@ only: nothing of a student's is executed here.
 from dhkit.wire import MIME
 
 from .decode import Malformed
-from .question import Family, Follow, Made, Mistake, Question, Variant, mistake
-from .verdict import Evidence, Verdict, is_forgivable, judge, plain
+from .question import Family, Follow, Mistake, Question, mistake
+from .tree import Verdict, is_forgivable
+from .verdict import Evidence, judge, plain
 
 __all__ = [
     "MIME",
     "Evidence",
     "Family",
     "Follow",
-    "Made",
     "Malformed",
     "Mistake",
     "Question",
-    "Variant",
     "Verdict",
     "is_forgivable",
     "judge",

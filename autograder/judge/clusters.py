@@ -15,9 +15,9 @@ import numpy as np
 from dhkit import wire
 
 from .decode import Blank, Function, Malformed, Number, Value, decode_answer
-from .kinds import KINDS, Entries, Setting
-from .question import Family, Question, Variant
-from .verdict import UNEXPLAINED
+from .kinds import KINDS, Entries
+from .question import Family, Question
+from .tree import UNEXPLAINED
 
 MAX_KEPT = 20_000
 
@@ -130,7 +130,7 @@ def right_answer(question: Question, student: str) -> Value | None:
     """The question's own answer for `student`, as if it had been handed in; None for a function."""
     if question.public.kind not in KINDS:
         return None
-    answer = question.reference(Variant(student))
+    answer = question.answer(student)
     answer = answer.solutions if isinstance(answer, Family) else answer
     return decode_answer(wire.packet(question.id, answer=wire.encode(answer)), question.id)
 
@@ -147,10 +147,13 @@ class _Form:
         if self.blanks != other.blanks:
             return False
         question = self.question
-        setting = Setting(question.samples, question.angles, question.tolerance, question.pinned)
         try:
             with np.errstate(all="ignore"):
-                return KINDS[question.public.kind].compare(question.public, self.value, other.value, setting).equal
+                return (
+                    KINDS[question.public.kind]
+                    .compare(question.public, self.value, other.value, question.setting())
+                    .equal
+                )
         except (ArithmeticError, IndexError, ValueError):
             # A kind counts on a sound answer on one side, the question's own. Here both are students'.
             return False

@@ -21,14 +21,28 @@ import sympy
 
 from dhkit.public import DH_COLUMNS
 
-from .question import Mistake, Step, mistake
+from .question import Mistake, Step, Wrong, mistake
 
 Rows = list[list]
 
 
-def _entry(note: str, share: float, feedback: str, /, *steps: Step, turn: float = 2 * np.pi, **other) -> Mistake:
-    """A `Mistake` of the catalogue; `other` replaces its note, share or feedback."""
-    return replace(mistake(note, share, feedback, *steps, turn=turn), **other)
+def _entry(
+    note: str,
+    share: float,
+    feedback: str,
+    /,
+    *steps: Step,
+    turn: float = 2 * np.pi,
+    wrong: Wrong | None = None,
+    **other,
+) -> Mistake:
+    """A `Mistake` of the catalogue; `other` replaces its note, share or feedback, `wrong` the steps it is made in."""
+    made = (
+        mistake(note, share, feedback, turn=turn, wrong=wrong)
+        if wrong
+        else mistake(note, share, feedback, *steps, turn=turn)
+    )
+    return replace(made, **other)
 
 
 # ---------------------------------------------------------------- tables

@@ -3,33 +3,35 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from inspect import signature
+from functools import cached_property, partial
+from inspect import Parameter, signature
+from itertools import chain
 
 import numpy as np
+import sympy
 
-from dhkit import public, variants
+from dhkit import public
+from dhkit.variants import OwnNumbers, numbers
 
 from .chain import SAME_MODEL
+from .kinds import Setting
 
 Draw = Callable[[np.random.Generator], dict[str, float]]
 Step = Callable[[object], object]
+Wrong = Mapping[str, object]
 
 
-@dataclass(frozen=True)
-class Variant:
-    """Whose question it is. The id comes from the gradebook, never from the notebook."""
+@dataclass(frozen=True, eq=False)
+class Way:
+    """One way to make a mistake: the reference called with the keywords of `wrong`, or `step` taken on an answer."""
 
-    student: str
-
-    def numbers(self, exercise: str) -> dict[str, float | str]:
-        """The student's own numbers for an exercise, as `dhkit.variants` derives them."""
-        return variants.numbers(exercise, self.student)
+    wrong: Wrong | None = None
+    step: Step | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Mistake:
     """A node of the response tree: the reference with one thing done wrong.
 
@@ -43,8 +45,9 @@ class Mistake:
         Markdown that names the mistake and points at the slide, without giving the answer. ``{name}`` stands for
         the student's own number of that name.
     steps : tuple of callable
-        Each takes an answer and returns it with the mistake made, in one of its forms. Where two mistakes
-        meet in one answer, the step of one is applied to what the step of the other returns.
+        Each takes an answer and returns it with the mistake made, in one of its forms.
+    wrong : tuple of mapping
+        Each holds keywords of the question's reference that make it compute the mistaken answer, in one of its forms.
     turn : float
         A full turn in the unit of the mistaken answer's joint angles.
     """
@@ -52,27 +55,31 @@ class Mistake:
     note: str
     share: float
     feedback: str
-    steps: tuple[Step, ...]
+    steps: tuple[Step, ...] = ()
+    wrong: tuple[Wrong, ...] = ()
     turn: float = 2 * np.pi
 
+    @cached_property
+    def ways(self) -> tuple[Way, ...]:
+        """Every form of the mistake."""
+        return (*(Way(wrong=wrong) for wrong in self.wrong), *(Way(step=step) for step in self.steps))
 
-def mistake(note: str, share: float, feedback: str, *steps: Step, turn: float = 2 * np.pi) -> Mistake:
-    """A `Mistake`; give its steps, each a function from an answer to the mistaken answer."""
-    return Mistake(note, share, feedback, steps, turn)
 
+def mistake(
+    note: str,
+    share: float,
+    feedback: str,
+    *steps: Step,
+    wrong: Wrong | Sequence[Wrong] = (),
+    turn: float = 2 * np.pi,
+) -> Mistake:
+    """A `Mistake`, made on the way to the answer or on the answer itself.
 
-class Made(list):
-    """A right answer that remembers what it was made of, for wrong steps that go wrong on the way to it.
-
-    ``Made(cloud, arm=arm)`` is the list ``cloud(arm=arm)``; ``but(arm=shorter)`` makes it again with something changed.
+    ``mistake("bend_in_degrees", 0.6, "...", wrong={"bend": "degrees"})`` calls the reference as
+    ``reference(mine, bend="degrees")``; ``mistake("x_and_y_exchanged", 0.5, "...", lambda point: point[::-1])`` changes
+    what it returns. A mistake of several forms gives several steps, or a list of such keywords.
     """
-
-    def __init__(self, make: Callable[..., list], **of) -> None:
-        super().__init__(make(**of))
-        self.make, self.of = make, of
-
-    def but(self, **change) -> Made:
-        return Made(self.make, **self.of | change)
+    return Mistake(note, share, feedback, steps, (wrong,) if isinstance(wrong, Mapping) else tuple(wrong), turn)
 
 
 @dataclass(frozen=True)
@@ -99,7 +106,7 @@ class Follow:
     model: Callable[[np.ndarray], np.ndarray]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Question:
     """One question as the judge knows it. The form of the answer is in its public half.
 
@@ -107,8 +114,11 @@ class Question:
     ----------
     id : str
         ``"<exercise>.<name>"``, as in the public half.
-    reference : callable
-        Maps a `Variant` to the right answer: anything `dhkit.wire.encode` takes, a function, or a `Family`.
+    reference : object
+        The right answer: anything `dhkit.wire.encode` takes, or a `Family`. Where it depends on the student's own
+        numbers, or where mistakes are made on the way to it, a function that returns it: its parameter ``mine`` holds
+        the student's numbers (``mine.L1``), each other one is a keyword that makes one thing wrong, and whose default
+        is right. Of a probed question the right function itself, with such keywords behind its arguments.
     mistakes : tuple of Mistake
         Tried in order when the answer is not right; the first that matches decides.
     partial : float
@@ -123,29 +133,37 @@ class Question:
     draw : callable, optional
         Draws one sample point for the symbols; the default draws angles and positive lengths independently.
     probe : callable, optional
-        Draws the argument lists sent to a student's function; takes ``(rng)``, or ``(rng, variant)`` where they depend
-        on whose question it is.
-    group : callable, optional
+        Draws the argument lists sent to a student's function: ``probe(rng)``, or ``probe(rng, mine)``.
+    case : callable, optional
         Names the case an argument list belongs to; each case earns the same share.
-    misses : callable, optional
-        For joint solutions: ``misses(q, variant, *args)`` puts solutions q, (k, n), through the direct model and returns
-        how far they are from the target, (k,), in metres and radians. `args` are the arguments of a probed function.
+    residual : callable, optional
+        For joint solutions: ``residual(q, *args)`` puts solutions q, (k, n), through the direct model and returns how
+        far they are from the target, (k,), in metres and radians. `args` are the arguments of a probed function; a
+        parameter ``mine`` holds the student's numbers.
     follows : Follow, optional
         The earlier question whose error is not counted a second time.
     """
 
     id: str
-    reference: Callable[[Variant], object]
+    reference: object
     mistakes: tuple[Mistake, ...] = ()
     partial: float = 0.5
     angles: tuple[int, ...] = ()
     tolerance: float = 1e-6
     pinned: frozenset[str] = SAME_MODEL
     draw: Draw | None = None
-    probe: Callable[..., list[list[float]]] | None = None
-    group: Callable[..., str] = lambda *args: "the values tried"
-    misses: Callable[..., np.ndarray] | None = None
+    probe: Callable[..., list[list]] | None = None
+    case: Callable[..., str] = lambda *args: "the values tried"
+    residual: Callable[..., np.ndarray] | None = None
     follows: Follow | None = None
+
+    def __post_init__(self) -> None:
+        known = _keywords(self.reference)
+        for node in self.mistakes:
+            unknown = set(chain.from_iterable(node.wrong)) - known
+            if unknown:
+                takes = f"takes {', '.join(sorted(known))}" if known else "takes no keyword"
+                raise ValueError(f"{self.id}: {node.note} sets {', '.join(sorted(unknown))}, but the reference {takes}")
 
     @cached_property
     def public(self) -> public.PublicQuestion:
@@ -155,20 +173,82 @@ class Question:
     def exercise(self) -> str:
         return self.id.partition(".")[0]
 
+    @property
+    def personal(self) -> bool:
+        """Whether the right answer depends on the student's own numbers."""
+        return _is_function(self.reference) and "mine" in _parameters(self.reference)
+
+    def numbers(self, student: str) -> OwnNumbers:
+        """The student's own numbers for the exercise. `student` is the id in the gradebook, never the one in the notebook."""
+        return OwnNumbers(numbers(self.exercise, student))
+
+    def answer(self, student: str, *ways: Way) -> object:
+        """The right answer for a student; with `ways`, the one of somebody who makes these mistakes, in this order.
+
+        A function for a probed question.
+        """
+        wrong = {name: value for way in ways for name, value in (way.wrong or {}).items()}
+        return take([way.step for way in ways if way.step is not None], self.compute(student, wrong))
+
+    def compute(self, student: str, wrong: Wrong) -> object:
+        """What the reference gives for a student when it goes wrong as told."""
+        if not _is_function(self.reference):
+            return self.reference
+        reference = partial(_with_own(self.reference, self.numbers(student)), **wrong)
+        return reference if self.public.kind == "function" else reference()
+
     @cached_property
     def samples(self) -> dict[str, np.ndarray]:
         """Sample values of the symbols: one (12,) array per symbol, the same at every call."""
         rng = np.random.default_rng(_seed(self.id))
         draw = self.draw or (lambda rng: {name: _independent(name, rng) for name in self.public.symbols})
         draws = [draw(rng) for _ in range(12)]
-        return {name: np.array([point[name] for point in draws]) for name in self.public.symbols}
+        return {name: np.array([sample[name] for sample in draws]) for name in self.public.symbols}
 
-    def probes(self, variant: Variant, seed: int) -> list[list[float]] | None:
+    def probes(self, student: str, seed: int) -> list[list] | None:
         """Argument lists for a function question (JSON-able), None for any other kind."""
         if self.probe is None:
             return None
-        rng = np.random.default_rng([seed, _seed(f"{self.id} {variant.student}")])
-        return self.probe(rng) if len(signature(self.probe).parameters) == 1 else self.probe(rng, variant)
+        rng = np.random.default_rng([seed, _seed(f"{self.id} {student}")])
+        return _with_own(self.probe, self.numbers(student))(rng)
+
+    def setting(self, student: str | None = None, *args) -> Setting:
+        """How answers are compared; without a student nobody asks how far a solution is from its target."""
+        residual = None
+        if self.residual is not None and student is not None:
+            own = _with_own(self.residual, self.numbers(student))
+            residual = lambda q: own(q, *args)  # noqa: E731
+        return Setting(self.samples, self.angles, self.tolerance, self.pinned, residual=residual)
+
+
+def take(steps: Sequence[Step], answer: object) -> object:
+    """The answer after some steps, the first one first."""
+    for step in steps:
+        answer = step(answer)
+    return answer
+
+
+def _is_function(reference: object) -> bool:
+    """SymPy's symbols can be called too, but they are values."""
+    return callable(reference) and not isinstance(reference, sympy.Basic)
+
+
+def _keywords(reference: object) -> set[str]:
+    """The names of the things that a reference can be told to do wrong."""
+    known = _parameters(reference) if _is_function(reference) else {}
+    return {name for name, one in known.items() if one.default is not Parameter.empty and name != "mine"}
+
+
+def _parameters(function: Callable) -> Mapping[str, Parameter]:
+    try:
+        return signature(function).parameters
+    except ValueError:  # built into Python, like max
+        return {}
+
+
+def _with_own(function: Callable, mine: OwnNumbers) -> Callable:
+    """`function` with the student's numbers for its parameter ``mine``, where it has one."""
+    return partial(function, mine=mine) if "mine" in _parameters(function) else function
 
 
 def _independent(name: str, rng: np.random.Generator) -> float:

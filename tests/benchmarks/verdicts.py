@@ -18,7 +18,7 @@ import sympy
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "questions"))
 
-from answers import VARIANT, entries, evidence, perturbed, right
+from answers import STUDENT, entries, evidence, mistaken, perturbed, right
 
 from autograder.judge import judge
 from autograder.questions import names, of_exercise
@@ -45,7 +45,7 @@ def answers(question):
     reference, rng = right(question), np.random.default_rng(5)
     yield reference
     for node in question.mistakes:
-        yield from (step(reference) for step in node.steps)
+        yield from (mistaken(question, way) for way in node.ways)
     if question.public.kind not in ("function", "choice"):
         yield from (answer for answer in (perturbed(question, rng) for _ in range(10)) if answer is not None)
     if question.public.kind == "function":
@@ -56,8 +56,8 @@ def measure(question, simplified=3):
     times = Times(question.id)
     collected = list(answers(question))
     all_evidence = [evidence(question, answer) for answer in collected]
-    times.first = timed(lambda: judge(question, all_evidence[-1], VARIANT))
-    times.verdicts = [timed(lambda found=found: judge(question, found, VARIANT)) for found in all_evidence]
+    times.first = timed(lambda: judge(question, all_evidence[-1], STUDENT))
+    times.verdicts = [timed(lambda found=found: judge(question, found, STUDENT)) for found in all_evidence]
     if question.public.symbols:
         reference = sympy.Matrix(entries(right(question)).reshape(-1).tolist())
         for answer in collected[:simplified]:

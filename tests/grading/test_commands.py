@@ -297,7 +297,7 @@ def test_an_interrupt_leaves_a_gradebook_and_no_kernel(course_copy, small, relea
             import sys
             from autograder import cli, questions
             from autograder.judge import Question
-            questions.find = lambda id: Question(id, lambda variant: "B")
+            questions.find = lambda id: Question(id, "B")
             sys.exit(cli.main(sys.argv[1:]))
             """
         )

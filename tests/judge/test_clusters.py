@@ -17,13 +17,11 @@ from autograder.judge.written import LIMIT, written
 from dhkit import wire
 
 t1, t2, a2, a3, d2, x, y, z = sympy.symbols("t1 t2 a2 a3 d2 x y z")
-MODEL = Question("scara.model", lambda variant: [a2 * sympy.cos(t1), a2 * sympy.sin(t1), -d2, t1], angles=(3,))
-TABLE = Question(
-    "scara.table", lambda variant: [[0, 0, 0, 0, t1], [0, a2, 0, 0, t2], [1, a3, 0, -d2, 0], [0, 0, 0, 0, 0]]
-)
-POSTURES = Question("scara.postures", lambda variant: [[0, 0, 0, 0]], angles=(0, 1, 3), tolerance=1e-3)
-FORWARD = Question("scara.forward", lambda variant: max)
-CHOICE = Question("scara.d2_sign", lambda variant: "B")
+MODEL = Question("scara.model", [a2 * sympy.cos(t1), a2 * sympy.sin(t1), -d2, t1], angles=(3,))
+TABLE = Question("scara.table", [[0, 0, 0, 0, t1], [0, a2, 0, 0, t2], [1, a3, 0, -d2, 0], [0, 0, 0, 0, 0]])
+POSTURES = Question("scara.postures", [[0, 0, 0, 0]], angles=(0, 1, 3), tolerance=1e-3)
+FORWARD = Question("scara.forward", max)
+CHOICE = Question("scara.d2_sign", "B")
 
 
 def decoded(value, id="any"):
@@ -106,7 +104,7 @@ def test_answers_to_different_numbers_go_by_words():
         Attempt(name, said, decoded(value), decoded(right))
         for name, said, value, right in (("a", "x", 1.0, 2.0), ("b", "x", 3.0, 4.0), ("c", "y", 1.0, 2.0))
     ]
-    number = Question("planar_2r.cos_theta2", lambda variant: 1)
+    number = Question("planar_2r.cos_theta2", 1)
     assert students(number, found) == ["ab", "c"]
 
 

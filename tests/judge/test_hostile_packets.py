@@ -5,7 +5,7 @@ import signal
 import tracemalloc
 
 import pytest
-from answers import VARIANT
+from answers import STUDENT
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -39,12 +39,12 @@ def bounded(id, node):
     found, before = evidence(id, node), signal.signal(signal.SIGPROF, stop)
     signal.setitimer(signal.ITIMER_PROF, 1.0)
     try:
-        verdict = judge(find(id), found, VARIANT)
+        verdict = judge(find(id), found, STUDENT)
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
         signal.signal(signal.SIGPROF, before)
     tracemalloc.start()
-    judge(find(id), found, VARIANT)
+    judge(find(id), found, STUDENT)
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert peak < BYTES
@@ -55,14 +55,14 @@ def bounded(id, node):
 def warm():
     """The references are ready before anything is timed, as after the first submission of a class."""
     for id in ASKED:
-        judge(find(id), evidence(id, filled(id, 0.123)), VARIANT)
+        judge(find(id), evidence(id, filled(id, 0.123)), STUDENT)
 
 
 def evidence(id, node):
     packet = wire.packet(id, answer=node)
     if find(id).public.kind != "function":
         return Evidence(packet)
-    probes = find(id).probes(VARIANT, 3)
+    probes = find(id).probes(STUDENT, 3)
     return Evidence(wire.packet(id, answer={"function": "f"}), (probes, wire.packet(id, probes=[node] * len(probes))))
 
 
@@ -154,5 +154,5 @@ NODES = st.recursive(
 @given(st.sampled_from(ASKED), NODES, st.booleans())
 def test_any_node_gets_a_verdict_as_an_answer_and_as_an_entry(id, node, whole):
     answer = json.loads(json.dumps(node if whole else filled(id, node)))
-    found = judge(find(id), evidence(id, answer), VARIANT)
+    found = judge(find(id), evidence(id, answer), STUDENT)
     assert 0 <= found.share <= 1 and found.note and found.feedback

@@ -5,7 +5,7 @@ import pytest
 import sympy
 from answers import verdict
 
-from autograder.judge import Evidence, Family, Question, Variant, following, is_forgivable, judge, mistake
+from autograder.judge import Evidence, Family, Question, following, is_forgivable, judge, mistake
 from autograder.judge.decode import decode_answer
 from autograder.judge.kinds import KINDS, Setting
 from autograder.questions import find
@@ -13,7 +13,13 @@ from dhkit import public, variants, wire
 from dhkit.public import PublicQuestion
 
 t1, t2, L1, L2, a2, a3, d2, t4 = sympy.symbols("t1 t2 L1 L2 a2 a3 d2 t4")
-ADA, BOB = Variant("ada"), Variant("bob")
+ADA, BOB = "ada", "bob"
+
+
+def length(student):
+    return variants.numbers("arm", student)["L1"]
+
+
 FORMS = {
     "arm.reach": PublicQuestion("arm.reach", "", "number", "one number"),
     "arm.both": PublicQuestion("arm.both", "", "joint_solutions", "a list of all (t1, t2)", joints=("t1", "t2")),
@@ -48,15 +54,15 @@ def evidence(id, answer, **whose):
     return Evidence(wire.packet(id, answer=wire.encode(answer), **whose))
 
 
-def judged(question, answer, variant=ADA, earlier=None, **whose):
-    return judge(question, evidence(question.id, answer, **whose), variant, earlier)
+def judged(question, answer, whose=ADA, earlier=None, **typed):
+    return judge(question, evidence(question.id, answer, **typed), whose, earlier)
 
 
 # ---------------------------------------------------------------- numbers of one's own
 
 REACH = Question(
     "arm.reach",
-    reference=lambda variant: 2 * variant.numbers("arm")["L1"],
+    reference=lambda mine: 2 * mine.L1,
     mistakes=(
         mistake(
             "halved",
@@ -69,22 +75,20 @@ REACH = Question(
 
 
 def test_a_copied_answer_is_wrong_in_another_notebook():
-    mine, theirs = (2 * one.numbers("arm")["L1"] for one in (ADA, BOB))
+    mine, theirs = (2 * length(student) for student in (ADA, BOB))
     assert judged(REACH, mine).note == "right"
     assert judged(REACH, theirs).share == 0
     assert judged(REACH, theirs, student="ada").share == 0
 
 
 def test_an_answer_for_the_id_that_was_typed_is_told_apart():
-    theirs = 2 * BOB.numbers("arm")["L1"]
+    theirs = 2 * length(BOB)
     found = judged(REACH, theirs, student="bob")
     assert (found.note, found.share) == ("numbers_of_another_student", 0)
     assert "the id bob" in found.feedback
-    assert judged(REACH, 2 * ADA.numbers("arm")["L1"], student="bob").note == "right"
+    assert judged(REACH, 2 * length(ADA), student="bob").note == "right"
     assert judged(REACH, 1.234, student="bob").note == "nothing_matched"
-    assert (
-        "nobody" in judged(REACH, 2 * Variant(variants.NOBODY).numbers("arm")["L1"], student=variants.NOBODY).feedback
-    )
+    assert "nobody" in judged(REACH, 2 * length(variants.NOBODY), student=variants.NOBODY).feedback
 
 
 @pytest.mark.parametrize("typed", [17, ["bob"], {"a": 1}, "x" * 5000])
@@ -95,24 +99,27 @@ def test_a_forged_id_is_malformed(typed):
 def test_the_reference_is_made_once_for_each_student():
     asked = []
 
-    def reference(variant):
-        asked.append(variant.student)
-        return 2 * variant.numbers("arm")["L1"]
+    def reference(mine):
+        asked.append(mine.L1)
+        return 2 * mine.L1
 
     factors = (mistake(f"times_{k}", 0.5, "**A factor too much.**", lambda reach, k=k: k * reach) for k in (3, 5, 7))
     question = Question("arm.reach", reference=reference, mistakes=tuple(factors))
-    for variant in (ADA, BOB, ADA):
-        right = 2 * variant.numbers("arm")["L1"]
-        notes = [judged(question, factor * right, variant).note for factor in (1.5, 1, 15, 1.5)]
+    for student in (ADA, BOB, ADA):
+        right = 2 * length(student)
+        notes = [judged(question, factor * right, student).note for factor in (1.5, 1, 15, 1.5)]
         assert notes == ["nothing_matched", "right", "times_3+times_5", "nothing_matched"]
-    assert asked == ["ada", "bob"]
+    assert asked == [length(ADA), length(BOB)]
 
 
 def test_feedback_uses_the_students_own_numbers():
-    for variant in (ADA, BOB):
-        length = variant.numbers("arm")["L1"]
-        found = judged(REACH, length, variant)
-        assert found.note == "halved" and f"your L1 = {length} m" in found.feedback and "{this} stays" in found.feedback
+    for student in (ADA, BOB):
+        found = judged(REACH, length(student), student)
+        assert (
+            found.note == "halved"
+            and f"your L1 = {length(student)} m" in found.feedback
+            and "{this} stays" in found.feedback
+        )
 
 
 # ---------------------------------------------------------------- errors carried over
@@ -169,7 +176,7 @@ def test_only_a_named_or_mostly_right_answer_is_forgiven_later():
     table = find("scara.table")
     named = next(node for node in table.mistakes if node.note == "classic_table")
     assert is_forgivable(judged(table, ROWS))
-    assert is_forgivable(judged(table, named.steps[0](ROWS)))
+    assert is_forgivable(judged(table, table.answer(ADA, *named.ways[:1])))
     assert is_forgivable(judged(table, [[0, 0, 0, 0, t1], [0, 3 * a2, 0, 0, t2], *ROWS[2:]]))
     for guess in ([[0] * 5] * 4, [ROWS[0], *[[0] * 5] * 3], ..., "text"):
         assert not is_forgivable(judged(table, guess))
@@ -178,14 +185,14 @@ def test_only_a_named_or_mostly_right_answer_is_forgiven_later():
 # ---------------------------------------------------------------- sets of solutions
 
 
-def misses(q, variant):
+def residual(q):
     return np.hypot(np.cos(q[:, 0]) + np.cos(q.sum(axis=1)) - 1, np.sin(q[:, 0]) + np.sin(q.sum(axis=1)) - 1)
 
 
-BOTH = Question("arm.both", reference=lambda _: [[0, np.pi / 2], [np.pi / 2, -np.pi / 2]], angles=(0, 1), misses=misses)
+BOTH = Question("arm.both", reference=[[0, np.pi / 2], [np.pi / 2, -np.pi / 2]], angles=(0, 1), residual=residual)
 FREE = Question(
-    "arm.both", reference=lambda _: Family([[0, np.pi]]), angles=(0, 1),
-    misses=lambda q, variant: np.hypot(np.cos(q[:, 0]) + np.cos(q.sum(axis=1)), np.sin(q[:, 0]) + np.sin(q.sum(axis=1))),
+    "arm.both", reference=Family([[0, np.pi]]), angles=(0, 1),
+    residual=lambda q: np.hypot(np.cos(q[:, 0]) + np.cos(q.sum(axis=1)), np.sin(q[:, 0]) + np.sin(q.sum(axis=1))),
 )  # fmt: skip
 
 
@@ -211,7 +218,7 @@ def test_of_infinitely_many_solutions_every_valid_one_is_right():
 
 
 def test_an_unreachable_target_has_no_solution():
-    nothing = Question("arm.both", reference=lambda _: [], angles=(0, 1), misses=misses)
+    nothing = Question("arm.both", reference=[], angles=(0, 1), residual=residual)
     assert judged(nothing, []).note == "right"
     assert "no solution here" in judged(nothing, [[0, 1]]).feedback
 
@@ -219,8 +226,8 @@ def test_an_unreachable_target_has_no_solution():
 def test_degrees_are_named_also_where_some_targets_have_no_solution():
     question = find("planar_2r.inverse")
     (node,) = (node for node in question.mistakes if node.note == "degrees")
-    assert verdict(question, node.steps[0](question.reference(ADA))).note == "degrees"
-    assert any(len(question.reference(ADA)(*args)) == 0 for args in question.probes(ADA, 7))
+    assert verdict(question, question.answer(ADA, *node.ways[:1])).note == "degrees"
+    assert any(len(question.answer(ADA)(*args)) == 0 for args in question.probes(ADA, 7))
 
 
 @pytest.mark.parametrize("rows", [[[0] * 5] * 4, [[0, 1, 2, 3, 4]] * 4])
@@ -237,7 +244,7 @@ def test_two_tables_without_any_joint_are_compared_cell_by_cell(rows):
 
 
 def test_both_triples_of_a_rotation_are_right_and_the_error_is_told_in_degrees():
-    question = Question("arm.angles", reference=lambda _: [0.3, 0.5, -0.4])
+    question = Question("arm.angles", reference=[0.3, 0.5, -0.4])
     for answer in ([0.3, 0.5, -0.4], [0.3 - np.pi, np.pi - 0.5, np.pi - 0.4], {"phi": -0.4, "psi": 0.3, "theta": 0.5}):
         assert judged(question, answer).note == "right"
     assert "10 deg" in judged(question, [0.3, 0.5, -0.4 + np.radians(10)]).feedback
@@ -245,7 +252,7 @@ def test_both_triples_of_a_rotation_are_right_and_the_error_is_told_in_degrees()
 
 
 def test_at_gimbal_lock_every_triple_of_the_family_is_right():
-    question = Question("arm.angles", reference=lambda _: [0.3, np.pi / 2, 0.0])
+    question = Question("arm.angles", reference=[0.3, np.pi / 2, 0.0])
     for shift in (-2.0, 0.4, 1.0):
         assert judged(question, [0.3 + shift, np.pi / 2, shift]).note == "right"
         assert judged(question, [0.3 + shift, np.pi / 2, -shift]).share == 0
@@ -253,15 +260,15 @@ def test_at_gimbal_lock_every_triple_of_the_family_is_right():
 
 def test_fixed_axes_are_not_moving_ones():
     moving, fixed = (
-        Question("arm.angles", reference=lambda _: [0.3, 0.5, -0.4]),
-        Question("arm.fixed", reference=lambda _: [-0.4, 0.5, 0.3]),
+        Question("arm.angles", reference=[0.3, 0.5, -0.4]),
+        Question("arm.fixed", reference=[-0.4, 0.5, 0.3]),
     )
     assert judged(moving, [0.3, 0.5, -0.4]).note == judged(fixed, [-0.4, 0.5, 0.3]).note == "right"
     assert judged(fixed, [0.3, 0.5, -0.4]).share == 0
 
 
 def test_a_direction_has_neither_length_nor_sense():
-    question = Question("arm.free", reference=lambda _: [1, -1])
+    question = Question("arm.free", reference=[1, -1])
     for answer in ([1, -1], [-3, 3], [0.1, -0.1]):
         assert judged(question, answer).note == "right"
     assert "90 deg" in judged(question, [1, 1]).feedback
@@ -275,7 +282,7 @@ def ring(inner, outer, count=3000):
 
 
 def test_a_cloud_is_judged_by_what_it_covers_and_what_it_has_outside():
-    question = Question("arm.cloud", reference=lambda _: ring(0.5, 1), tolerance=0.08)
+    question = Question("arm.cloud", reference=ring(0.5, 1), tolerance=0.08)
     assert judged(question, ring(0.5, 1, 2000)[::-1]).note == "right"
     assert "covers" in judged(question, ring(0.5, 0.8)).feedback
     outside = judged(question, ring(0.0, 1))
@@ -287,7 +294,7 @@ def test_a_cloud_is_judged_by_what_it_covers_and_what_it_has_outside():
 
 def test_the_error_of_a_transform_is_told_in_degrees_and_metres():
     right = np.eye(4)
-    question = Question("arm.T", reference=lambda _: right)
+    question = Question("arm.T", reference=right)
     moved, turned = right.copy(), right.copy()
     moved[:3, 3] = 0.3, 0, 0.4
     turned[:3, :3] = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
@@ -327,10 +334,10 @@ def raising(half):
 
 HALF = Question(
     "arm.half",
-    reference=lambda variant: lambda x: [x / 2, 1.0],
+    reference=lambda x: [x / 2, 1.0],
     mistakes=(mistake("fails_at_zero", 0.6, "**At zero it fails.**", raising),),
     probe=lambda rng: [[1.0], [0.0], [3.0]],
-    group=lambda x: "zero" if x == 0 else "the rest",
+    case=lambda x: "zero" if x == 0 else "the rest",
 )
 
 

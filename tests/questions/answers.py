@@ -4,16 +4,22 @@ import numpy as np
 import sympy
 from scipy.spatial.transform import Rotation
 
-from autograder.judge import Evidence, Family, Variant, judge
+from autograder.judge import Evidence, Family, judge
 from dhkit import wire
 from dhkit.public import DH_COLUMNS
 
-VARIANT = Variant("ada")
+STUDENT = "ada"
 
 
 def right(question):
     """The reference, as a student would write it."""
-    answer = question.reference(VARIANT)
+    answer = question.answer(STUDENT)
+    return answer.solutions if isinstance(answer, Family) else answer
+
+
+def mistaken(question, *ways):
+    """The answer of somebody who makes these mistakes."""
+    answer = question.answer(STUDENT, *ways)
     return answer.solutions if isinstance(answer, Family) else answer
 
 
@@ -21,7 +27,7 @@ def evidence(question, answer):
     """What the sandbox would find if a student handed in `answer`."""
     if question.public.kind != "function":
         return Evidence(wire.packet(question.id, answer=wire.encode(answer)))
-    probes, results = question.probes(VARIANT, 7), []
+    probes, results = question.probes(STUDENT, 7), []
     for args in probes:
         try:
             found = answer(*args)
@@ -33,7 +39,7 @@ def evidence(question, answer):
 
 
 def verdict(question, answer):
-    return judge(question, evidence(question, answer), VARIANT)
+    return judge(question, evidence(question, answer), STUDENT)
 
 
 def entries(answer):
@@ -125,8 +131,8 @@ def perturbed(question, rng):
         changed[rng.integers(len(solutions)), rng.integers(solutions.shape[1])] += rng.choice([-1, 1]) * rng.uniform(
             0.05, 1
         )
-        family = isinstance(question.reference(VARIANT), Family)
-        return None if family and question.misses(changed, VARIANT).max() < 1e-9 else changed
+        family = isinstance(question.answer(STUDENT), Family)
+        return None if family and question.setting(STUDENT).residual(changed).max() < 1e-9 else changed
     form = entries(answer)
     place = rng.integers(form.size)
     symbols = sympy.symbols(question.public.symbols)

@@ -16,7 +16,7 @@ PRIVATE, ANSWER, CHECK = re.findall(r"```python\n(.*?)```", TEXT, re.S)
 
 TRIAL = """
 import sympy
-from autograder.judge import Evidence, Variant, judge
+from autograder.judge import Evidence, judge
 from autograder.questions import find
 from dhkit import wire
 
@@ -24,7 +24,7 @@ t1, L1 = sympy.symbols("t1 L1")
 x, y = L1 * sympy.cos(t1), L1 * sympy.sin(t1)
 for answer in ([x, y], [y, x], [x, x], ...):
     packet = wire.packet("planar_2r.elbow", answer=wire.encode(answer))
-    print(judge(find("planar_2r.elbow"), Evidence(packet), Variant("ada")).note)
+    print(judge(find("planar_2r.elbow"), Evidence(packet), "ada").note)
 """
 
 

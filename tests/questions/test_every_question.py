@@ -9,7 +9,7 @@ from itertools import permutations
 import numpy as np
 import pytest
 import sympy
-from answers import VARIANT, other_forms, perturbed, right, verdict
+from answers import STUDENT, mistaken, other_forms, perturbed, right, verdict
 
 from autograder.judge import Evidence, Family, judge
 from autograder.questions import exercises, find
@@ -35,7 +35,7 @@ def test_right_forms_earn_everything(question, form):
 
 @pytest.mark.parametrize("question", FUNCTIONS, ids=ids(FUNCTIONS))
 def test_right_functions_earn_everything(question):
-    reference = question.reference(VARIANT)
+    reference = question.answer(STUDENT)
     plain = lambda *args: getattr(answer := reference(*args), "solutions", answer)  # noqa: E731
     forms = {
         "array": lambda *args: np.array(plain(*args)),
@@ -51,13 +51,13 @@ def test_right_functions_earn_everything(question):
 def mistakes():
     for question in QUESTIONS:
         for node in question.mistakes:
-            for i, step in enumerate(node.steps):
-                yield pytest.param(question, node, step, id=f"{question.id}: {node.note} {i}")
+            for i, way in enumerate(node.ways):
+                yield pytest.param(question, node, way, id=f"{question.id}: {node.note} {i}")
 
 
-@pytest.mark.parametrize(("question", "node", "step"), list(mistakes()))
-def test_every_mistake_is_named(question, node, step):
-    found = verdict(question, step(right(question)))
+@pytest.mark.parametrize(("question", "node", "way"), list(mistakes()))
+def test_every_mistake_is_named(question, node, way):
+    found = verdict(question, mistaken(question, way))
     assert (found.note, found.share) == (node.note, node.share)
     assert found.feedback.startswith(node.feedback.partition("{")[0])
 
@@ -93,7 +93,7 @@ def test_the_scara_in_other_frames(rows, note, words):
 def test_two_mistakes_at_once_are_named(question):
     for first, second in permutations(question.mistakes, 2):
         try:
-            answer = second.steps[0](first.steps[0](right(question)))
+            answer = mistaken(question, first.ways[0], second.ways[0])
         except (AttributeError, IndexError, KeyError, TypeError, ValueError, ZeroDivisionError):
             continue  # the steps exclude each other
         note = verdict(question, answer).note
@@ -103,7 +103,7 @@ def test_two_mistakes_at_once_are_named(question):
 def test_two_mistakes_earn_the_product_of_their_shares_and_both_feedbacks():
     question = find("scara.table")
     signs, classic = (next(n for n in question.mistakes if n.note == note) for note in ("sign_of_d2", "classic_table"))
-    found = verdict(question, classic.steps[0](signs.steps[0](right(question))))
+    found = verdict(question, mistaken(question, signs.ways[0], classic.ways[0]))
     assert found.note == "classic_table+sign_of_d2"
     assert found.share == pytest.approx(signs.share * classic.share)
     assert signs.feedback in found.feedback and classic.feedback in found.feedback
@@ -115,9 +115,9 @@ def test_a_tree_is_well_formed(question):
     assert len(set(notes)) == len(notes)
     assert all(re.fullmatch("[a-z0-9_]+", note) for note in notes), "the gradebook would lose such a note"
     assert all(0 <= node.share < 1 and node.feedback.strip() for node in question.mistakes)
-    assert all(node.steps for node in question.mistakes)
+    assert all(node.ways for node in question.mistakes)
     assert len(question.mistakes) >= 2, "a response tree knows at least two misconceptions"
-    assert question.misses or "joint_solutions" not in (
+    assert question.residual or "joint_solutions" not in (
         question.public.kind,
         getattr(question.public.returns, "kind", ""),
     )
@@ -144,7 +144,7 @@ def test_perturbed_answers_are_refused(question):
 @pytest.mark.parametrize("question", FUNCTIONS, ids=ids(FUNCTIONS))
 def test_perturbed_functions_are_refused(question):
     """A result of one single argument list is changed: the function is not right, whatever else it gets right."""
-    reference, probes = question.reference(VARIANT), question.probes(VARIANT, 7)
+    reference, probes = question.answer(STUDENT), question.probes(STUDENT, 7)
     rng = np.random.default_rng(13)
     plain = [getattr(answer := reference(*args), "solutions", answer) for args in probes]
     for place in range(len(probes)):
@@ -156,7 +156,7 @@ def test_perturbed_functions_are_refused(question):
         else:
             results[place].flat[rng.integers(results[place].size)] += rng.uniform(0.1, 1)
         family = isinstance(reference(*probes[place]), Family)
-        if family and question.misses(np.atleast_2d(results[place]), VARIANT, *probes[place]).max() < 1e-9:
+        if family and question.setting(STUDENT, *probes[place]).residual(np.atleast_2d(results[place])).max() < 1e-9:
             continue
         answers = iter(results)
         assert verdict(question, lambda *args: next(answers)).share < 1, probes[place]
@@ -164,14 +164,14 @@ def test_perturbed_functions_are_refused(question):
 
 @pytest.mark.parametrize("question", [q for q in DATA if q.public.kind == "choice"], ids=lambda q: q.id)
 def test_other_choices_are_refused(question):
-    answer = question.reference(VARIANT)
+    answer = question.answer(STUDENT)
     assert answer in question.public.options
     assert all(verdict(question, letter).share < 0.5 for letter in question.public.options if letter != answer)
 
 
 @pytest.mark.parametrize("question", FUNCTIONS, ids=ids(FUNCTIONS))
 def test_constant_functions_are_refused(question):
-    first = question.reference(VARIANT)(*question.probes(VARIANT, 7)[0])
+    first = question.answer(STUDENT)(*question.probes(STUDENT, 7)[0])
     first = getattr(first, "solutions", first)
     for wrong in (lambda *args: first, lambda *args: [], lambda *args: 1 / 0, lambda *args: "right"):
         assert verdict(question, wrong).share == 0
@@ -179,7 +179,7 @@ def test_constant_functions_are_refused(question):
 
 @pytest.mark.parametrize("question", FUNCTIONS, ids=ids(FUNCTIONS))
 def test_something_else_than_a_function_is_said_to_be_so(question):
-    found = judge(question, Evidence(wire.packet(question.id, answer=[1, 2])), VARIANT)
+    found = judge(question, Evidence(wire.packet(question.id, answer=[1, 2])), STUDENT)
     assert found.note == "malformed" and "expected a function" in found.feedback and "shape 2" in found.feedback
 
 

@@ -4,12 +4,11 @@ import random
 
 import pytest
 
-from autograder.judge import Evidence, Variant, judge
+from autograder.judge import Evidence, judge
 from autograder.questions import exercises
 from dhkit import wire
 
 QUESTIONS = [question for questions in exercises().values() for question in questions]
-VARIANT = Variant("ada")
 ODD = [
     0, 1, -1, 7, 0.5, 1e308, -1e-300, True, "x", [], [[]],
     {"float": "nan"}, {"float": "inf"}, {"float": "-inf"}, {"int": "9" * 300}, {"rat": [1, {"int": "9" * 300}]},
@@ -49,12 +48,12 @@ def test_every_answer_gets_a_verdict(question):
     rng = random.Random(question.id)
     for _ in range(150):
         if question.public.kind == "function":
-            probes = question.probes(VARIANT, rng.randrange(9))
+            probes = question.probes("ada", rng.randrange(9))
             results = wire.packet(question.id, probes=[answer(rng, question.public.returns) for _ in probes])
             evidence = Evidence(wire.packet(question.id, answer={"function": "f"}), (probes, results))
         else:
             evidence = Evidence(wire.packet(question.id, answer=answer(rng, question.public)))
-        found = judge(question, evidence, VARIANT)
+        found = judge(question, evidence, "ada")
         assert 0 <= found.share <= question.partial, evidence
 
 
@@ -64,5 +63,5 @@ def test_every_answer_gets_a_verdict(question):
 @pytest.mark.parametrize("entry", ODD, ids=str)
 def test_a_table_of_one_odd_entry_earns_nothing(question, entry):
     rows, columns = question.public.shape
-    found = judge(question, Evidence(wire.packet(question.id, answer=[[entry] * columns] * rows)), VARIANT)
+    found = judge(question, Evidence(wire.packet(question.id, answer=[[entry] * columns] * rows)), "ada")
     assert found.share == 0

@@ -1,7 +1,6 @@
 """The wrist formulas agree with the reference solver, and mistakes differ from right answers, whatever numbers a student gets."""
 
 from itertools import product
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,6 +9,7 @@ from autograder.questions import find
 from autograder.questions.orientation import R, e, rotation_and_sign, wrist_angles
 from autograder.reference.orientation import EULER_SETS, euler_angles, rotation_angle_between, rpy_matrix
 from dhkit.public import variant_ranges
+from dhkit.variants import OwnNumbers
 
 
 @pytest.mark.parametrize("axes", EULER_SETS)
@@ -29,6 +29,6 @@ def test_no_top_of_the_class_makes_a_mistake_look_right():
     question, names = find("orientation.spun"), ("precession", "nutation", "spin")
     ranges = [variant_ranges("orientation")[name] for name in names]
     for own in product(*(np.arange(low, high + step / 2, step) for low, high, step in ranges)):
-        right = question.reference(SimpleNamespace(numbers=lambda exercise: dict(zip(names, own))))
+        right = question.reference(mine=OwnNumbers(zip(names, own)))
         wrong = rpy_matrix(*np.transpose([node.steps[0](right) for node in question.mistakes]))
         assert rotation_angle_between(wrong, rpy_matrix(*right)).min() > 2 * question.tolerance, own

@@ -20,7 +20,7 @@ from nbgrader.preprocessors import GetGrades, NbGraderPreprocessor
 from traitlets import Enum, Float, Integer, TraitType
 
 from autograder import questions
-from autograder.judge import Variant, is_forgivable, judge
+from autograder.judge import is_forgivable, judge
 from autograder.judge.clusters import is_unexplained, keep
 from autograder.sandbox import Limits
 from dhkit.public import questions as public_questions
@@ -105,7 +105,7 @@ class JudgeAnswers(NbGraderPreprocessor):
         evidence = resources["autograder"]["evidence"][check]
         question = questions.find(question_id(check))
         earlier = resources["autograder"].setdefault("forgivable", {})
-        verdict = judge(question, evidence, Variant(resources["nbgrader"]["student"]), earlier)
+        verdict = judge(question, evidence, resources["nbgrader"]["student"], earlier)
         if is_forgivable(verdict):
             earlier[question.id] = evidence
         earned = score(verdict.share, float(cell.metadata.nbgrader["points"]))

@@ -14,7 +14,7 @@ from typing import Literal
 from nbformat.notebooknode import NotebookNode
 
 from autograder import questions
-from autograder.judge import MIME, Evidence, Variant
+from autograder.judge import MIME, Evidence
 from autograder.sandbox import CellRun, Limits, Run, run_notebook
 
 from ..cells import answer_id, check_cells, check_name, grade_id, is_check, notebook_record, question_id
@@ -115,7 +115,7 @@ def _arguments(check: str, student: str, stamp: str, outputs: list) -> list | No
     question = questions.find(question_id(check))
     # The seed follows from the submission: grading it again, here or with nbgrader, asks the same things.
     seed = int.from_bytes(hashlib.sha256(f"{stamp} {question.id}".encode()).digest()[:8])
-    return question.probes(Variant(student), seed)
+    return question.probes(student, seed)
 
 
 def _evidence(nb: NotebookNode, index: int, check: str, run: Run, sent: dict[int, list]) -> Evidence:

@@ -46,7 +46,7 @@ class Setting:
     patient : bool
         Whether an entry that differs in float64 gets the benefit of forty digits: asked for against the reference,
         where rounding must not fail a right answer.
-    misses : callable, optional
+    residual : callable, optional
         How far joint solutions (k, n) are from the target, (k,), in metres and radians.
     family : bool
         Infinitely many solutions: every one that does not miss the target is right.
@@ -58,7 +58,7 @@ class Setting:
     pinned: frozenset[str] = frozenset()
     turn: float = 2 * np.pi
     patient: bool = False
-    misses: Callable[[np.ndarray], np.ndarray] | None = None
+    residual: Callable[[np.ndarray], np.ndarray] | None = None
     family: bool = False
 
 

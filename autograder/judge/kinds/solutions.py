@@ -50,7 +50,7 @@ def compare_solutions(question: PublicQuestion, student: np.ndarray, other: np.n
     Of a family of infinitely many, any valid representatives are accepted.
     """
     mine, theirs = (_distinct(solutions, setting) for solutions in (student, other))
-    if setting.family and setting.misses is not None:
+    if setting.family and setting.residual is not None:
         return _of_a_family(mine, setting)
     same = _close(theirs, mine, setting)
     missing, extra = int((~same.any(axis=1)).sum()), ~same.any(axis=0)
@@ -69,17 +69,19 @@ def compare_solutions(question: PublicQuestion, student: np.ndarray, other: np.n
 
 def _wrong(mine: np.ndarray, extra: np.ndarray, setting: Setting) -> str:
     count = f"{int(extra.sum())} of the {len(mine)} given"
-    if setting.misses is None:
+    if setting.residual is None:
         return f"{count} {'does' if extra.sum() == 1 else 'do'} not reach the target"
-    misses = setting.misses(mine[extra])
-    return f"{count} miss{'es' if extra.sum() == 1 else ''} the target, by up to {misses.max():.3g} (metres or radians)"
+    residuals = setting.residual(mine[extra])
+    return (
+        f"{count} miss{'es' if extra.sum() == 1 else ''} the target, by up to {residuals.max():.3g} (metres or radians)"
+    )
 
 
 def _of_a_family(mine: np.ndarray, setting: Setting) -> Comparison:
     if not len(mine):
         return Comparison(False, 0.0, ("there are solutions here, the answer gives none",))
-    misses = setting.misses(mine)
-    wrong = misses > 10 * setting.tolerance
+    residuals = setting.residual(mine)
+    wrong = residuals > 10 * setting.tolerance
     if not wrong.any():
         return Comparison(True, 1.0)
     return Comparison(False, float((~wrong).mean()), (_wrong(mine, wrong, setting),))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -160,38 +160,19 @@ def rx90(a3, d3) -> DHTable:
     return RX90.at({"a3": a3, "d3": d3})
 
 
-@dataclass(frozen=True)
-class Held:
-    """The RX-90 with a student's tool, as a function of six joint angles; the other fields are what can go wrong.
-
-    own : the student's numbers. tool : the step from frame 6 to the tool, 4x4.
-    before : the tool matrix multiplied from the left. degrees : the arguments taken as degrees.
-    """
-
-    own: tuple[tuple[str, float], ...]
-    tool: np.ndarray
-    before: bool = False
-    degrees: bool = False
-
-    def __call__(self, *q):
-        own = dict(self.own)
-        arm = rx90(own["a3"], own["d3"]).forward(np.radians(q) if self.degrees else q)
-        return self.tool @ arm if self.before else arm @ self.tool
+def forward(*q, mine, tool="right", bend="radians", angles="radians") -> np.ndarray:
+    """The pose of the student's tool on the RX-90, (4, 4), for six joint angles."""
+    arm = rx90(mine.a3, mine.d3).forward(np.radians(q) if angles == "degrees" else q)
+    if tool == "none":
+        return arm
+    step = tool_matrix(mine.reach, mine.bend if bend == "degrees" else np.radians(mine.bend), mine.length)
+    return step @ arm if tool == "left" else arm @ step
 
 
-def tool_matrix(own, bend) -> np.ndarray:
+@lru_cache
+def tool_matrix(reach, bend, length) -> np.ndarray:
     """The step from frame 6 to the tool frame."""
-    return np.array(modified_dh(own["reach"], bend, own["length"], 0).evalf(), dtype=float)
-
-
-def forward(variant) -> Held:
-    own = variant.numbers("direct_models")
-    return Held(tuple(own.items()), tool_matrix(own, np.radians(own["bend"])))
-
-
-def with_tool(matrix):
-    """The same function with another tool: `matrix` makes it from the student's numbers."""
-    return lambda model: replace(model, tool=matrix(dict(model.own)))
+    return np.array(modified_dh(reach, bend, length, 0).evalf(), dtype=float)
 
 
 def probes(rng: np.random.Generator) -> list[list[float]]:
@@ -209,7 +190,7 @@ def group(*q) -> str:
 QUESTIONS = (
     Question(
         "direct_models.blanks",
-        reference=lambda variant: BLANKS,
+        reference=BLANKS,
         mistakes=(
             mistake(
                 "sign_of_translation",
@@ -243,7 +224,7 @@ QUESTIONS = (
     ),
     Question(
         "direct_models.tool_point",
-        reference=lambda variant: TOOL_POINT,
+        reference=TOOL_POINT,
         mistakes=(
             mistake(
                 "tool_not_turned_by_joint_4",
@@ -276,7 +257,7 @@ QUESTIONS = (
     ),
     Question(
         "direct_models.K",
-        reference=lambda variant: lists(K),
+        reference=lists(K),
         mistakes=(
             mistake(
                 "sign_of_translation",
@@ -315,7 +296,7 @@ QUESTIONS = (
     ),
     Question(
         "direct_models.wrist",
-        reference=lambda variant: WRIST,
+        reference=WRIST,
         mistakes=(
             angle_not_summed(
                 list((K[0] * sympy.Matrix([D3, -L2 * S(t2) - D4 * S(t3), L2 * C(t2) + D4 * C(t3), 1]))[:3, 0]),
@@ -346,7 +327,7 @@ QUESTIONS = (
     ),
     Question(
         "direct_models.table",
-        reference=lambda variant: ROWS,
+        reference=ROWS,
         mistakes=(
             offset_missing(1, 2, 3, 4, 5, 6),
             classic_table(),
@@ -383,7 +364,7 @@ QUESTIONS = (
     ),
     Question(
         "direct_models.wrong_cells",
-        reference=lambda variant: [WRONG_T56, WRONG_U4, WRONG_U3],
+        reference=[WRONG_T56, WRONG_U4, WRONG_U3],
         mistakes=(
             mistake(
                 "perfect_rotation_believed",
@@ -418,7 +399,7 @@ QUESTIONS = (
     ),
     Question(
         "direct_models.U2",
-        reference=lambda variant: U2,
+        reference=U2,
         mistakes=(
             mistake(
                 "printed_5t6_used",
@@ -436,7 +417,7 @@ QUESTIONS = (
     ),
     Question(
         "direct_models.T06",
-        reference=lambda variant: U0,
+        reference=U0,
         mistakes=(
             mistake(
                 "printed_5t6_used",
@@ -464,24 +445,24 @@ QUESTIONS = (
                 "tool_left_out",
                 0.5,
                 "**Your tool is missing.** This is the pose of frame 6; the row of your tool comes behind it.",
-                with_tool(lambda own: np.eye(4)),
+                wrong={"tool": "none"},
             ),
             mistake(
                 "tool_on_the_left",
                 0.4,
                 "**The tool is multiplied from the left.** There it would stand in front of the base. What the hand holds comes "
                 "last in the chain, on the right.",
-                lambda model: replace(model, before=True),
+                wrong={"tool": "left"},
             ),
             mistake(
                 "bend_in_degrees",
                 0.6,
                 "**The bend of {bend} degrees is taken as {bend} radians.** cos and sin count in radians.",
-                with_tool(lambda own: tool_matrix(own, own["bend"])),
+                wrong={"bend": "degrees"},
             ),
-            arguments_in_degrees(steps=(lambda model: replace(model, degrees=True),)),
+            arguments_in_degrees(wrong={"angles": "degrees"}),
         ),
         probe=probes,
-        group=group,
+        case=group,
     ),
 )

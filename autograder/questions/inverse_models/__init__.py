@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 import sympy
 
-from autograder.judge import Family, Question, Variant, mistake
+from autograder.judge import Family, Question, mistake
 from autograder.judge.misconceptions import (
     atan2_arguments_exchanged,
     atan_for_atan2,
@@ -38,23 +38,18 @@ HAND = sympy.Matrix(robots.ELBOW_3R.symbolic_forward()[:3, 3])
 DETERMINANT = HAND.jacobian([t1, t2, t3]).subs(t1, 0).det()
 
 
-def own(variant: Variant, *names: str) -> list[float]:
-    numbers = variant.numbers("inverse_models")
-    return [numbers[name] for name in names]
-
-
 @lru_cache(maxsize=256)
 def elbow_arm(l1: float, l2: float) -> robots.Robot:
     return robots.elbow_3r(l1, l2)
 
 
-def elbow_postures(variant: Variant) -> Rows:
-    l1, l2, *target = own(variant, *ELBOW)
+def elbow_postures(mine) -> Rows:
+    l1, l2, *target = (mine[name] for name in ELBOW)
     return elbow_arm(l1, l2).solve(target).q.tolist()
 
 
-def elbow_misses(q: np.ndarray, variant: Variant) -> np.ndarray:
-    l1, l2, *target = own(variant, *ELBOW)
+def elbow_residual(q: np.ndarray, mine) -> np.ndarray:
+    l1, l2, *target = (mine[name] for name in ELBOW)
     return np.linalg.norm(elbow_arm(l1, l2).forward(q)[:, :3, 3] - target, axis=-1)
 
 
@@ -134,8 +129,11 @@ def consistent_point(rng: np.random.Generator) -> dict[str, float]:
 
 # ---------------------------------------------------------------- the KR210 (MECA 953 slides)
 
-CENTRE = ("Wx", "Wy", "Wz")
 KR210 = robots.kr210(grip=0.0)
+
+
+def kr210_target(mine) -> list[float]:
+    return [mine.Wx, mine.Wy, mine.Wz]
 
 
 def arm_postures(robot: robots.Robot, centre) -> Rows:
@@ -188,7 +186,7 @@ def rx90_postures(U, a3: float, d3: float) -> Rows:
     return _rx90_postures(np.array(U, dtype=float).tobytes(), a3, d3)
 
 
-def rx90_misses(q: np.ndarray, variant: Variant, U, a3: float, d3: float) -> np.ndarray:
+def rx90_residual(q: np.ndarray, U, a3: float, d3: float) -> np.ndarray:
     gap = rx90(a3, d3).forward(q) - np.array(U, dtype=float)
     return np.linalg.norm(gap[:, :3, 3], axis=-1) + np.linalg.norm(gap[:, :3, :3], axis=(-2, -1)) / np.sqrt(2)
 
@@ -309,18 +307,17 @@ def fails_on_limit_and_beyond(inverse):
 # ---------------------------------------------------------------- the aligned wrist
 
 
-def total(variant: Variant) -> float:
+def total(mine) -> float:
     """t4 + t6, from the pose that the notebook builds of the student's own numbers."""
-    U, arm = aligned_pose(variant)
+    U, arm = aligned_pose(mine)
     forearm = robots.RX90.forward([*arm, 0, 0, 0])[:3, :3]
     seen = forearm.T @ U[:3, :3]
     return float(np.arctan2(seen[1, 0], seen[0, 0]))
 
 
-@lru_cache(maxsize=256)
-def aligned_pose(variant: Variant) -> tuple[np.ndarray, list[float]]:
+def aligned_pose(mine) -> tuple[np.ndarray, list[float]]:
     """Hand along the forearm, its X axis `roll` above the horizontal; the arm's t1, t2, t3."""
-    *arm, roll = own(variant, "t1", "t2", "t3", "roll")
+    arm, roll = [mine.t1, mine.t2, mine.t3], mine.roll
     U = robots.RX90.forward([*arm, 0, 0, 0])
     approach = U[:3, 2]
     level = np.cross([0, 0, 1], approach) / np.linalg.norm(np.cross([0, 0, 1], approach))
@@ -329,10 +326,10 @@ def aligned_pose(variant: Variant) -> tuple[np.ndarray, list[float]]:
     return U, arm
 
 
-def aligned_misses(q: np.ndarray, variant: Variant) -> np.ndarray:
-    U, arm = aligned_pose(variant)
+def aligned_residual(q: np.ndarray, mine) -> np.ndarray:
+    U, arm = aligned_pose(mine)
     joints = np.concatenate([np.broadcast_to(arm, (len(q), 3)), q], axis=1)
-    return rx90_misses(joints, variant, U, 0.45, 0.45)
+    return rx90_residual(joints, U, 0.45, 0.45)
 
 
 def representatives(change):
@@ -366,11 +363,11 @@ QUESTIONS = (
         ),
         angles=(0, 1, 2),
         tolerance=1e-3,
-        misses=elbow_misses,
+        residual=elbow_residual,
     ),
     Question(
         "inverse_models.counts",
-        reference=lambda variant: list(counts()),
+        reference=lambda: list(counts()),
         mistakes=(
             mistake(
                 "wrist_not_counted",
@@ -411,7 +408,7 @@ QUESTIONS = (
     ),
     Question(
         "inverse_models.repaired",
-        reference=lambda variant: ROW_6,
+        reference=ROW_6,
         mistakes=(
             misprint(
                 [6, 0, 0, 0, sympy.Symbol("d6"), sympy.Symbol("t6")],
@@ -439,7 +436,7 @@ QUESTIONS = (
     ),
     Question(
         "inverse_models.shoulder",
-        reference=lambda variant: DIRECTION - SIDE,
+        reference=DIRECTION - SIDE,
         mistakes=(
             mistake(
                 "sine_loses_the_back",
@@ -469,7 +466,7 @@ QUESTIONS = (
     ),
     Question(
         "inverse_models.kr210",
-        reference=lambda variant: arm_postures(KR210, own(variant, *CENTRE)),
+        reference=lambda mine: arm_postures(KR210, kr210_target(mine)),
         mistakes=(
             mistake("over_the_back_missing", 0.5, BACK_MISSING, first_half, second_half),
             mistake("one_elbow_missing", 0.5, ELBOW_MISSING, *one_elbow((0, 2), (1, 3), (0, 3), (1, 2))),
@@ -502,11 +499,11 @@ QUESTIONS = (
         ),
         angles=(0, 1, 2),
         tolerance=1e-3,
-        misses=lambda q, variant: np.linalg.norm(kr210_centre(q) - own(variant, *CENTRE), axis=-1),
+        residual=lambda q, mine: np.linalg.norm(kr210_centre(q) - kr210_target(mine), axis=-1),
     ),
     Question(
         "inverse_models.determinant",
-        reference=lambda variant: DETERMINANT,
+        reference=DETERMINANT,
         mistakes=(
             mistake(
                 "shoulder_factor_missing",
@@ -534,7 +531,7 @@ QUESTIONS = (
     ),
     Question(
         "inverse_models.rx90",
-        reference=lambda variant: rx90_postures,
+        reference=rx90_postures,
         mistakes=(
             mistake(
                 "wrist_flip_missing",
@@ -597,12 +594,12 @@ QUESTIONS = (
         angles=(0, 1, 2, 3, 4, 5),
         tolerance=1e-4,
         probe=probes,
-        group=where,
-        misses=rx90_misses,
+        case=where,
+        residual=rx90_residual,
     ),
     Question(
         "inverse_models.aligned",
-        reference=lambda variant: Family([[0.0, 0.0, total(variant)]]),
+        reference=lambda mine: Family([[0.0, 0.0, total(mine)]]),
         mistakes=(
             mistake(
                 "sign_of_the_sum",
@@ -626,11 +623,11 @@ QUESTIONS = (
         ),
         angles=(0, 1, 2),
         tolerance=1e-3,
-        misses=aligned_misses,
+        residual=aligned_residual,
     ),
     Question(
         "inverse_models.free",
-        reference=lambda variant: [0, 0, 0, 1, 0, -1],
+        reference=[0, 0, 0, 1, 0, -1],
         mistakes=(
             mistake(
                 "turned_the_same_way",

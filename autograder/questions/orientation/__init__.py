@@ -61,18 +61,17 @@ REVERSED_RPY = turns("xyz", phi, theta, psi)
 GYROSCOPE = turns("zxz", psi, theta, phi)
 
 
-def orientation(variant) -> np.ndarray:
+def orientation(mine) -> np.ndarray:
     """The orientation of the student's own top."""
-    mine = variant.numbers("orientation")
-    return euler_matrix(np.radians([mine["precession"], mine["nutation"], mine["spin"]]), "zxz", intrinsic=True)
+    return euler_matrix(np.radians([mine.precession, mine.nutation, mine.spin]), "zxz", intrinsic=True)
 
 
-def both_rpy(variant) -> list:
-    return rpy(orientation(variant)).angles.tolist()
+def both_rpy(mine) -> list:
+    return rpy(orientation(mine)).angles.tolist()
 
 
-def misses_rpy(q, variant):
-    return rotation_angle_between(rpy_matrix(*q.T), orientation(variant))
+def rpy_residual(q, mine):
+    return rotation_angle_between(rpy_matrix(*q.T), orientation(mine))
 
 
 def sign_in_the_pitch_only(found):
@@ -85,9 +84,9 @@ def sign_in_the_pitch_only(found):
 FORTH, BACK = rotation("z", np.radians(30)), rotation("z", np.radians(-30))
 
 
-def spun(variant) -> list:
+def spun(mine) -> list:
     """One triple (roll, pitch, yaw) of the student's top, turned about its own axle."""
-    return rpy(orientation(variant) @ FORTH).angles[0].tolist()
+    return rpy(orientation(mine) @ FORTH).angles[0].tolist()
 
 
 def read_from(change):
@@ -169,7 +168,7 @@ def zyz(rows):
     return Family([found.family(0.0).tolist(), found.family(float(found.combination)).tolist()])
 
 
-def misses_zyz(q, variant, rows):
+def zyz_residual(q, rows):
     return rotation_angle_between(euler_matrix(q, "zyz", intrinsic=True), np.array(rows))
 
 
@@ -244,7 +243,7 @@ def wanted_in_degrees(found):
 QUESTIONS = (
     Question(
         "orientation.own_fixed",
-        reference=lambda variant: "B",
+        reference="B",
         mistakes=(
             option(
                 "A",
@@ -266,7 +265,7 @@ QUESTIONS = (
     ),
     Question(
         "orientation.rpy_entries",
-        reference=lambda variant: ENTRIES,
+        reference=ENTRIES,
         mistakes=(
             mistake(
                 "order_of_turns_reversed",
@@ -298,7 +297,7 @@ QUESTIONS = (
     ),
     Question(
         "orientation.zxz",
-        reference=lambda variant: GYROSCOPE,
+        reference=GYROSCOPE,
         mistakes=(
             misprint(
                 turns("xyz", psi, theta, phi),
@@ -324,7 +323,7 @@ QUESTIONS = (
     ),
     Question(
         "orientation.nutation",
-        reference=lambda variant: "C",
+        reference="C",
         mistakes=(
             option(
                 "A",
@@ -364,7 +363,7 @@ QUESTIONS = (
         ),
         angles=(0, 1, 2),
         tolerance=1e-3,
-        misses=misses_rpy,
+        residual=rpy_residual,
     ),
     Question(
         "orientation.spun",
@@ -399,7 +398,7 @@ QUESTIONS = (
     ),
     Question(
         "orientation.printed",
-        reference=lambda variant: "D",
+        reference="D",
         mistakes=(
             option(
                 "A",
@@ -424,7 +423,7 @@ QUESTIONS = (
     ),
     Question(
         "orientation.lock",
-        reference=lambda variant: LEFT_AT_LOCK,
+        reference=LEFT_AT_LOCK,
         mistakes=(
             mistake(
                 "roll_minus_yaw",
@@ -440,7 +439,7 @@ QUESTIONS = (
     ),
     Question(
         "orientation.wrist",
-        reference=lambda variant: wrist_angles(variant.numbers("orientation")["wrist"]),
+        reference=lambda mine: wrist_angles(mine.wrist),
         mistakes=(
             misprint(
                 lambda answer: [answer[0].subs(e, 1), answer[1], answer[2].subs(e, 1)],
@@ -480,7 +479,7 @@ QUESTIONS = (
     ),
     Question(
         "orientation.zyz",
-        reference=lambda variant: zyz,
+        reference=zyz,
         mistakes=(
             mistake(
                 "one_triple_only",
@@ -502,7 +501,7 @@ QUESTIONS = (
         angles=(0, 1, 2),
         tolerance=1e-4,
         probe=probes,
-        group=where,
-        misses=misses_zyz,
+        case=where,
+        residual=zyz_residual,
     ),
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import sympy
 
-from autograder.judge import Question, Variant, mistake
+from autograder.judge import Question, mistake
 from autograder.judge.misconceptions import degrees, option, symbol_negated
 from autograder.reference.parallel import ThreeRPR, ThreeRRR
 from autograder.reference.two_link import wrap
@@ -26,14 +26,12 @@ GAP_SQUARED = sympy.simplify(GAP.dot(GAP))
 HEIGHT = 0.7  # of P in the question about the singular pose, phi = 0
 
 
-def lengths_of(variant: Variant) -> list[float]:
-    numbers = variant.numbers("parallel_robots")
-    return [numbers["q1"], numbers["q2"], numbers["q3"]]
+def lengths_of(mine) -> list[float]:
+    return [mine.q1, mine.q2, mine.q3]
 
 
-def pose_of(variant: Variant) -> list[float]:
-    numbers = variant.numbers("parallel_robots")
-    return [numbers["x"], numbers["y"], numbers["phi"]]
+def pose_of(mine) -> list[float]:
+    return [mine.x, mine.y, mine.phi]
 
 
 def leg_lengths(x, y, phi):
@@ -68,17 +66,17 @@ def meeting_x() -> float:
 # ---------------------------------------------------------------- how far solutions miss
 
 
-def mode_misses(q, variant):
+def mode_residual(q, mine):
     """Largest error of a leg length, for poses (k, 3)."""
     with np.errstate(over="ignore"):
-        return np.abs(ROBOT.inverse(q) - lengths_of(variant)).max(axis=1)
+        return np.abs(ROBOT.inverse(q) - lengths_of(mine)).max(axis=1)
 
 
-def posture_misses(q, variant):
+def posture_residual(q, mine):
     """Largest distance from the end of a leg to its joint on the platform, for joint values (k, 6)."""
     drive, elbow = q[:, ::2], q[:, 1::2]
     ends = np.add(BASE, BARS[0] * _along(drive) + BARS[1] * _along(drive + elbow))
-    px, py, turn = pose_of(variant)
+    px, py, turn = pose_of(mine)
     joints = (px, py) + np.array(PLATFORM) @ np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
     return np.linalg.norm(ends - joints, axis=-1).max(axis=1)
 
@@ -143,7 +141,7 @@ NOT_TURNED = "**The platform is not turned.** The points b are given along the a
 QUESTIONS = (
     Question(
         "parallel_robots.joint",
-        reference=lambda variant: JOINT,
+        reference=JOINT,
         mistakes=(
             symbol_negated(phi, "turned_backwards", BACKWARDS, 0.5),
             mistake("platform_not_turned", 0.3, NOT_TURNED, lambda _: [x + u, y + v]),
@@ -157,7 +155,7 @@ QUESTIONS = (
     ),
     Question(
         "parallel_robots.leg_lengths",
-        reference=lambda variant: leg_lengths,
+        reference=leg_lengths,
         mistakes=(
             mistake(
                 "turned_backwards",
@@ -183,7 +181,7 @@ QUESTIONS = (
     ),
     Question(
         "parallel_robots.w2",
-        reference=lambda variant: q2**2 - q1**2 - GAP_SQUARED,
+        reference=q2**2 - q1**2 - GAP_SQUARED,
         mistakes=(
             mistake(
                 "sign_of_d_squared",
@@ -214,7 +212,7 @@ QUESTIONS = (
     ),
     Question(
         "parallel_robots.most",
-        reference=lambda variant: "C",
+        reference="C",
         mistakes=(
             option(
                 "A",
@@ -237,7 +235,7 @@ QUESTIONS = (
     ),
     Question(
         "parallel_robots.modes",
-        reference=lambda variant: ROBOT.direct(lengths_of(variant)).listed().tolist(),
+        reference=lambda mine: ROBOT.direct(lengths_of(mine)).listed().tolist(),
         mistakes=(
             mistake(
                 "one_mode_only",
@@ -263,11 +261,11 @@ QUESTIONS = (
         partial=0.6,
         angles=(2,),
         tolerance=1e-3,
-        misses=mode_misses,
+        residual=mode_residual,
     ),
     Question(
         "parallel_robots.jacobian",
-        reference=lambda variant: jacobian,
+        reference=jacobian,
         mistakes=(
             mistake(
                 "legs_not_unit_vectors",
@@ -300,7 +298,7 @@ QUESTIONS = (
     ),
     Question(
         "parallel_robots.singular",
-        reference=lambda variant: SINGULAR_X,
+        reference=SINGULAR_X,
         mistakes=(
             mistake(
                 "meeting_point_for_p",
@@ -326,7 +324,7 @@ QUESTIONS = (
     ),
     Question(
         "parallel_robots.postures",
-        reference=lambda variant: TWO_BARS.inverse(pose_of(variant)).listed().tolist(),
+        reference=lambda mine: TWO_BARS.inverse(pose_of(mine)).listed().tolist(),
         mistakes=(
             mistake(
                 "one_posture_only",
@@ -351,11 +349,11 @@ QUESTIONS = (
         ),
         angles=tuple(range(6)),
         tolerance=1e-3,
-        misses=posture_misses,
+        residual=posture_residual,
     ),
     Question(
         "parallel_robots.slogan",
-        reference=lambda variant: "B",
+        reference="B",
         mistakes=(
             option(
                 "A",

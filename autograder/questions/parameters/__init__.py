@@ -16,8 +16,6 @@ from autograder.judge.misconceptions import (
 from autograder.reference import robots
 from autograder.reference.lines import common_normal, link, link_axis, link_frame
 
-NUMBERS = "parameters"
-
 
 class Found(list):
     """A vector that knows the scene it was found in: `scene` maps names to what a wrong step may take instead."""
@@ -47,9 +45,8 @@ def with_entry(index, change):
 # ---------------------------------------------------------------- two frames to read
 
 
-def reading(variant):
-    own = variant.numbers(NUMBERS)
-    return [own["reach"], -np.radians(own["tilt"]), -own["drop"], np.radians(own["turn"])]
+def reading(mine):
+    return [mine.reach, -np.radians(mine.tilt), -mine.drop, np.radians(mine.turn)]
 
 
 def negated(*places):
@@ -64,21 +61,20 @@ def exchanged(first, second):
 # ---------------------------------------------------------------- two skew axes
 
 
-def skew_axes(variant):
-    own = variant.numbers(NUMBERS)
-    first = np.array([own["px"], 0.1, 0.9]), np.array([0.0, 0, 1])
-    second = np.array([own["qx"], own["qy"], own["qz"]]), np.array([1.0, own["m"], own["w"]])
+def skew_axes(mine):
+    first = np.array([mine.px, 0.1, 0.9]), np.array([0.0, 0, 1])
+    second = np.array([mine.qx, mine.qy, mine.qz]), np.array([1.0, mine.m, mine.w])
     return first, second
 
 
-def origin(variant):
-    first, second = skew_axes(variant)
+def origin(mine):
+    first, second = skew_axes(mine)
     feet, (p, u), (q, _) = common_normal(first, second), first, second
     return Found(feet[0], other_foot=feet[1], joint=p, dropped=p + ((q - p) @ u) * u, middle=feet.mean(axis=0))
 
 
-def x_axis(variant):
-    first, second = skew_axes(variant)
+def x_axis(mine):
+    first, second = skew_axes(mine)
     feet, (p, u), (q, v) = common_normal(first, second), first, second
     return Found(
         link_axis(first, second), wedge=np.cross(u, v), normal=feet[1] - feet[0], joints=(q - p) / np.linalg.norm(q - p)
@@ -94,37 +90,34 @@ def reversed_vector(found):
 JOINTS_AT = 0.20, 0.35  # heights of joints 1 and 2
 
 
-def parallel(variant):
-    own = variant.numbers(NUMBERS)
+def parallel(mine):
     up, (low, high) = [0, 0, 1], JOINTS_AT
-    first, second = ([0, 0, low], up), ([own["gap"], own["side"], high], up)
+    first, second = ([0, 0, low], up), ([mine.gap, mine.side, high], up)
     return Found(
-        [link(first, second)[0], own["height"]],
+        [link(first, second)[0], mine.height],
         straight=np.linalg.norm(np.subtract(second[0], first[0])),
-        coordinates=(own["gap"], own["side"], own["gap"] + own["side"]),
-        rise=own["height"] - low,
+        coordinates=(mine.gap, mine.side, mine.gap + mine.side),
+        rise=mine.height - low,
     )
 
 
 # ---------------------------------------------------------------- axes that meet, and a gripper
 
 
-def meeting_axes(variant):
-    own = variant.numbers(NUMBERS)
-    along = np.array([own["lean"], 2.0, 4.0])
-    return ([own["cx"], 0, 0.5], [0, 1, 0]), (np.array([own["cx"], own["cy"], 0.5]) + 0.1 * along, along)
+def meeting_axes(mine):
+    along = np.array([mine.lean, 2.0, 4.0])
+    return ([mine.cx, 0, 0.5], [0, 1, 0]), (np.array([mine.cx, mine.cy, 0.5]) + 0.1 * along, along)
 
 
-def frame(variant):
-    return sympy.Matrix(tidy(link_frame(*meeting_axes(variant))))
+def frame(mine):
+    return sympy.Matrix(tidy(link_frame(*meeting_axes(mine))))
 
 
-def gripper(variant):
-    own = variant.numbers(NUMBERS)
-    yaw = np.radians(own["yaw"])
+def gripper(mine):
+    yaw = np.radians(mine.yaw)
     z, y = np.array([np.cos(yaw), np.sin(yaw), 0]), np.array([0, 0, 1.0])
     found = np.eye(4)
-    found[:3] = np.column_stack([np.cross(y, z), y, z, [0.6, own["shelf"], 0.8]])
+    found[:3] = np.column_stack([np.cross(y, z), y, z, [0.6, mine.shelf, 0.8]])
     return sympy.Matrix(tidy(found))
 
 
@@ -252,7 +245,7 @@ LEFT_HANDED = mistake(
 QUESTIONS = (
     Question(
         "parameters.variable",
-        reference=lambda variant: "C",
+        reference="C",
         mistakes=(
             option(
                 "A",
@@ -425,7 +418,7 @@ QUESTIONS = (
     ),
     Question(
         "parameters.flip",
-        reference=lambda variant: FLIPPED,
+        reference=FLIPPED,
         mistakes=(
             mistake(
                 "not_rewritten",
@@ -484,7 +477,7 @@ QUESTIONS = (
     ),
     Question(
         "parameters.link",
-        reference=lambda variant: link_of,
+        reference=link_of,
         mistakes=(
             mistake(
                 "alpha_without_sign",
@@ -514,7 +507,7 @@ QUESTIONS = (
             ),
         ),
         probe=probes,
-        group=group,
+        case=group,
         angles=(1,),
         tolerance=1e-6,
     ),

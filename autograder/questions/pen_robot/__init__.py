@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 import sympy
 
-from autograder.judge import Family, Follow, Made, Question, following, mistake
+from autograder.judge import Family, Follow, Question, following, mistake
 from autograder.judge.misconceptions import (
     columns_exchanged,
     offset_missing,
@@ -60,11 +60,10 @@ def point_of_the_surface(rng: np.random.Generator) -> dict[str, float]:
     return {name: sizes[name] for name in ("x", "y", "L1", "h2", "L2", "p1")}
 
 
-def circles(numbers, side=None, reverse=False) -> list[float]:
-    """Radii on the sheet; with the defaults right."""
-    sizes = {name: numbers[name] for name in LENGTHS} | ({} if side is None else {"h2": side, "L2": 0.0})
-    radii = list(_robot(**sizes).inverse.circles(sizes["h1"] - numbers["drop"]))
-    return radii[::-1] if reverse else radii
+def circles(mine, side="h2 + L2") -> list[float]:
+    """Radii on the sheet, the large one first; `side` is the distance of the pen's plane from axis 1."""
+    distance = {"h2 + L2": mine.h2 + mine.L2, "h2": mine.h2, "none": 0.0}[side]
+    return list(_robot(mine.h1, mine.L1, distance, 0.0, mine.p1).inverse.circles(mine.h1 - mine.drop))
 
 
 @lru_cache(maxsize=256)
@@ -146,7 +145,7 @@ def kind_of_place(px, py, pz, h1, L1, H, p1) -> str:
     return next((name for name, residual in zip(names, residuals) if abs(residual) < 1e-6), "points off the surface")
 
 
-def misses_of_pairs(q, variant, *args):
+def pair_residual(q, *args):
     """How far the tip is from the point, (k,), for (theta1, phi) (k, 2)."""
     tips = np.stack([_point(turn, angle, args[3:]) for turn, angle in q])
     return np.linalg.norm(tips - np.array(args[:3]), axis=-1)
@@ -157,33 +156,28 @@ def misses_of_pairs(q, variant, *args):
 STOP = np.pi / 2
 
 
-def own_robot(variant):
-    return _robot(**{name: value for name, value in variant.numbers("pen_robot").items() if name in LENGTHS})
+def own_robot(mine):
+    return _robot(*(mine[name] for name in LENGTHS))
 
 
-def curve(rng: np.random.Generator, variant) -> list[list[float]]:
+def curve(rng: np.random.Generator, mine) -> list[list[float]]:
     """Points of the student's own curve, drawn along it."""
-    path = pen_path(variant.numbers("pen_robot")["curve"], 241)
+    path = pen_path(mine.curve, 241)
     chosen = np.sort(rng.choice(len(path), 24, replace=False))
     turn, angle = path[chosen].T
-    points = own_robot(variant).forward(np.stack([turn, angle, 0 * angle], axis=-1))[:, :3, 3]
+    points = own_robot(mine).forward(np.stack([turn, angle, 0 * angle], axis=-1))[:, :3, 3]
     return points.tolist()
 
 
-def written(variant):
+def follow(*point, mine):
     """Right joint values for a point of the curve: phi shared by both joints in equal parts, and others within the stops."""
-    model = own_robot(variant).inverse
-
-    def follow(*point):
-        turn, angle = model.effective(point, tol=1e-7)[0]
-        return Family([[turn, share * angle, (1 - share) * angle] for share in (0.5, 0.4, 0.6)])
-
-    return follow
+    turn, angle = own_robot(mine).inverse.effective(point, tol=1e-7)[0]
+    return Family([[turn, share * angle, (1 - share) * angle] for share in (0.5, 0.4, 0.6)])
 
 
-def misses_of_the_trace(q, variant, *point):
+def trace_residual(q, *point, mine):
     """How far the tip is from the point of the curve, plus how far joints 2 and 3 are beyond their stops."""
-    tips = own_robot(variant).forward(q)[:, :3, 3]
+    tips = own_robot(mine).forward(q)[:, :3, 3]
     beyond = np.maximum(np.abs(q[:, 1:]) - STOP, 0).sum(axis=1)
     return np.linalg.norm(tips - np.array(point), axis=-1) + np.where(beyond > 1e-9, beyond, 0)
 
@@ -211,7 +205,7 @@ def _rows(answer) -> list:
 QUESTIONS = (
     Question(
         "pen_robot.table",
-        reference=lambda variant: ROWS,
+        reference=ROWS,
         mistakes=(
             mistake(
                 "twist_read_as_length",
@@ -235,7 +229,7 @@ QUESTIONS = (
     ),
     Question(
         "pen_robot.tip",
-        reference=lambda variant: TIP,
+        reference=TIP,
         mistakes=(
             mistake(
                 "pen_left_out",
@@ -260,7 +254,7 @@ QUESTIONS = (
     ),
     Question(
         "pen_robot.linear",
-        reference=lambda variant: "C",
+        reference="C",
         mistakes=(
             option(
                 "A",
@@ -283,65 +277,64 @@ QUESTIONS = (
     ),
     Question(
         "pen_robot.height",
-        reference=lambda variant: height_squared(),
+        reference=height_squared,
         mistakes=(
             mistake(
                 "side_forgotten",
                 0.4,
                 "**The distance of the pen's plane from axis 1 is forgotten.** Seen from above the arm has a corner: rho is not the "
                 "distance from the axis.",
-                lambda _: height_squared(side=0),
+                wrong={"side": 0},
             ),
             mistake(
                 "side_added",
                 0.5,
                 "**A sign is turned under the root.** The distance from axis 1 is the hypotenuse, not a leg.",
-                lambda _: height_squared(sign=1),
+                wrong={"sign": 1},
             ),
             mistake(
                 "one_offset_only",
                 0.6,
                 "**Only one of the two lengths along axis 2 is there.** L2 lies on the same line as h2.",
-                lambda _: height_squared(side=h2),
-                lambda _: height_squared(side=L2),
+                wrong=[{"side": h2}, {"side": L2}],
             ),
             mistake(
                 "arm_forgotten",
                 0.4,
                 "**The arm L1 is forgotten.** The circle of the pen has its centre on axis 2, not on axis 1.",
-                lambda _: height_squared(out=0),
+                wrong={"out": 0},
             ),
         ),
         draw=point_of_the_surface,
     ),
     Question(
         "pen_robot.circles",
-        reference=lambda variant: Made(circles, numbers=variant.numbers("pen_robot")),
+        reference=circles,
         mistakes=(
             mistake(
                 "side_forgotten",
                 0.5,
                 "**These are the two rho, not the radii.** The pen's plane passes axis 1 at a distance.",
-                lambda circles: circles.but(side=0.0),
+                wrong={"side": "none"},
             ),
             mistake(
                 "one_offset_only",
                 0.6,
                 "**Only h2 = {h2} m of the lengths along axis 2 is taken.** L2 lies on the same line.",
-                lambda circles: circles.but(side=circles.of["numbers"]["h2"]),
+                wrong={"side": "h2"},
             ),
             mistake(
                 "circles_exchanged",
                 0.7,
                 "**The two radii are exchanged.** The large one comes first.",
-                lambda circles: circles.but(reverse=True),
+                lambda circles: circles[::-1],
             ),
         ),
         tolerance=1e-4,
     ),
     Question(
         "pen_robot.inverse",
-        reference=lambda variant: reached,
+        reference=reached,
         mistakes=(
             mistake(
                 "points_behind_missed",
@@ -376,12 +369,12 @@ QUESTIONS = (
         angles=(0, 1),
         tolerance=1e-5,
         probe=places,
-        group=kind_of_place,
-        misses=misses_of_pairs,
+        case=kind_of_place,
+        residual=pair_residual,
     ),
     Question(
         "pen_robot.follow",
-        reference=written,
+        reference=follow,
         mistakes=(
             mistake(
                 "stops_ignored",
@@ -406,14 +399,14 @@ QUESTIONS = (
         angles=(0, 1, 2),
         tolerance=1e-6,
         probe=curve,
-        group=lambda px, py, pz: (
+        case=lambda px, py, pz: (
             "the left half of the curve (y > 0)" if py > 0 else "the right half of the curve (y < 0)"
         ),
-        misses=misses_of_the_trace,
+        residual=trace_residual,
     ),
     Question(
         "pen_robot.readings",
-        reference=lambda variant: READINGS,
+        reference=READINGS,
         mistakes=(
             mistake(
                 "sign_of_theta1",
@@ -440,7 +433,7 @@ QUESTIONS = (
     ),
     Question(
         "pen_robot.repaired",
-        reference=lambda variant: REPAIRED,
+        reference=REPAIRED,
         mistakes=(
             mistake(
                 "link_left_out",

@@ -73,10 +73,9 @@ def solutions(px, py, l1, l2):
     return robots.planar_2r(l1, l2).solve((px, py)).q.tolist()
 
 
-def own_target(variant):
+def own_target(mine):
     """The student's (x, y, L1, L2)."""
-    mine = variant.numbers("planar_2r")
-    return [mine[name] for name in ("x", "y", "L1", "L2")]
+    return [mine.x, mine.y, mine.L1, mine.L2]
 
 
 def with_opposite_elbows(found):
@@ -154,9 +153,9 @@ def lengths_exchanged(feedback):
     return symbols_exchanged(L1, L2, "lengths_exchanged", f"**The two lengths are exchanged.** {feedback}")
 
 
-def misses(q, variant, *target):
+def residual(q, *target, mine):
     """How far the hand is from the target, (k,), for joint values (k, 2)."""
-    px, py, l1, l2 = target or own_target(variant)
+    px, py, l1, l2 = target or own_target(mine)
     t1, t12 = q[:, 0], q.sum(axis=1)
     return np.hypot(l1 * np.cos(t1) + l2 * np.cos(t12) - px, l1 * np.sin(t1) + l2 * np.sin(t12) - py)
 
@@ -164,7 +163,7 @@ def misses(q, variant, *target):
 QUESTIONS = (
     Question(
         "planar_2r.table",
-        reference=lambda variant: ROWS,
+        reference=ROWS,
         mistakes=(
             classic_table(
                 feedback="**This is the classic Denavit-Hartenberg table**, as on the Romanian slide whose header says modified. "
@@ -180,7 +179,7 @@ QUESTIONS = (
     ),
     Question(
         "planar_2r.model",
-        reference=lambda variant: MODEL,
+        reference=MODEL,
         mistakes=(
             misprint(
                 lambda model: [model[0], model[1] - L1 * sympy.sin(t1) + L1 * sympy.cos(t1)],
@@ -201,7 +200,7 @@ QUESTIONS = (
     ),
     Question(
         "planar_2r.T0E",
-        reference=lambda variant: HAND,
+        reference=HAND,
         mistakes=(
             mistake(
                 "tool_left_out",
@@ -217,7 +216,7 @@ QUESTIONS = (
     ),
     Question(
         "planar_2r.cos_theta2",
-        reference=lambda variant: ELBOW_COSINE,
+        reference=ELBOW_COSINE,
         mistakes=(
             mistake(
                 "sign_of_law_of_cosines",
@@ -243,7 +242,7 @@ QUESTIONS = (
     ),
     Question(
         "planar_2r.theta1",
-        reference=lambda variant: DIRECTION - sympy.atan2(*FOREARM),
+        reference=DIRECTION - sympy.atan2(*FOREARM),
         mistakes=(
             atan_for_atan2(2),
             atan2_arguments_exchanged(2),
@@ -266,7 +265,7 @@ QUESTIONS = (
     ),
     Question(
         "planar_2r.reach",
-        reference=lambda variant: REACH,
+        reference=REACH,
         mistakes=(
             mistake(
                 "r_min_without_absolute_value",
@@ -291,7 +290,7 @@ QUESTIONS = (
     ),
     Question(
         "planar_2r.postures",
-        reference=lambda variant: solutions(*own_target(variant)),
+        reference=lambda mine: solutions(*own_target(mine)),
         mistakes=(
             posture_missing(),
             with_first_theta1(),
@@ -305,11 +304,11 @@ QUESTIONS = (
         ),
         angles=(0, 1),
         tolerance=1e-3,
-        misses=misses,
+        residual=residual,
     ),
     Question(
         "planar_2r.inverse",
-        reference=lambda variant: lambda *target: solutions(*target),
+        reference=solutions,
         mistakes=(
             mistake(
                 "one_posture_missing",
@@ -353,12 +352,12 @@ QUESTIONS = (
         angles=(0, 1),
         tolerance=1e-4,
         probe=probes,
-        group=where,
-        misses=misses,
+        case=where,
+        residual=residual,
     ),
     Question(
         "planar_2r.centre",
-        reference=lambda variant: "D",
+        reference="D",
         mistakes=(
             option(
                 "A",

@@ -65,15 +65,14 @@ def probes(rng: np.random.Generator) -> list[list[float]]:
     return [[float(value) for value in args] for args in draws + round_angles]
 
 
-def own_pose(variant):
+def own_pose(mine):
     """The student's (a2, a3) and the pose (x, y, z, theta) to reach, metres and radians."""
-    mine = variant.numbers("scara")
-    return [mine["a2"], mine["a3"]], [mine["x"], mine["y"], mine["z"], np.radians(mine["heading"])]
+    return [mine.a2, mine.a3], [mine.x, mine.y, mine.z, np.radians(mine.heading)]
 
 
-def postures(variant):
+def postures(mine):
     """All (t1, t2, d2, t4) that reach the student's pose."""
-    lengths, pose = own_pose(variant)
+    lengths, pose = own_pose(mine)
     return robots.scara(*lengths).solve(pose).q.tolist()
 
 
@@ -83,9 +82,9 @@ def with_first_t1_and_heading(solutions):
     return [[q1, q2, depth, q4 + first - q1] for first, q2, depth, q4 in solutions]
 
 
-def misses(q, variant):
+def residual(q, mine):
     """How far the hand is from the student's pose, (k,), for joint values (k, 4)."""
-    lengths, pose = own_pose(variant)
+    lengths, pose = own_pose(mine)
     hands = np.array([forward()(q1, q2, depth, q4, *lengths) for q1, q2, depth, q4 in q])
     heading = np.arctan2(hands[:, 1, 0], hands[:, 0, 0]) - pose[3]
     return np.linalg.norm(hands[:, :3, 3] - pose[:3], axis=1) + np.abs((heading + np.pi) % (2 * np.pi) - np.pi)
@@ -103,7 +102,7 @@ def turned_quill(share=0.7):
 QUESTIONS = (
     Question(
         "scara.table",
-        reference=lambda variant: ROWS,
+        reference=ROWS,
         mistakes=(
             sign_of("d", 3, note="sign_of_d2", share=0.7, feedback=D2_IS_A_DEPTH),
             classic_table(),
@@ -115,7 +114,7 @@ QUESTIONS = (
     ),
     Question(
         "scara.dhm",
-        reference=lambda variant: DHTable([(0, *GENERAL)], joints=GENERAL[3:]).transforms()[0],
+        reference=DHTable([(0, *GENERAL)], joints=GENERAL[3:]).transforms()[0],
         mistakes=(
             classic_matrix(GENERAL),
             symbol_negated(
@@ -129,7 +128,7 @@ QUESTIONS = (
     ),
     Question(
         "scara.U1",
-        reference=lambda variant: U1,
+        reference=U1,
         mistakes=(
             turned_quill(),
             reversed_product(*TRANSFORMS[1:]),
@@ -146,7 +145,7 @@ QUESTIONS = (
     ),
     Question(
         "scara.T04",
-        reference=lambda variant: U0,
+        reference=U0,
         mistakes=(
             turned_quill(),
             reversed_product(*TRANSFORMS),
@@ -162,7 +161,7 @@ QUESTIONS = (
     ),
     Question(
         "scara.model",
-        reference=lambda variant: MODEL,
+        reference=MODEL,
         mistakes=(
             turned_quill(),
             angles_subtracted(t2),
@@ -182,7 +181,7 @@ QUESTIONS = (
     ),
     Question(
         "scara.d2_sign",
-        reference=lambda variant: "B",
+        reference="B",
         mistakes=(
             option(
                 "A",
@@ -206,7 +205,7 @@ QUESTIONS = (
     ),
     Question(
         "scara.forward",
-        reference=lambda variant: forward(),
+        reference=forward(),
         mistakes=(
             mistake(
                 "sign_of_d2", 0.7, D2_IS_A_DEPTH, lambda model: lambda t1, t2, d2, *rest: model(t1, t2, -d2, *rest)
@@ -241,6 +240,6 @@ QUESTIONS = (
         ),
         angles=(0, 1, 3),
         tolerance=1e-3,
-        misses=misses,
+        residual=residual,
     ),
 )

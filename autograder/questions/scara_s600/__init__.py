@@ -99,16 +99,15 @@ def at_centre(row, firsts=(0.0, -np.pi / 2, np.pi / 2)):
     return [[first, row[1], row[2], row[3] + first - row[0]] for first in firsts]
 
 
-def misses(q, variant, *pose):
+def residual(q, *pose, mine):
     """How far the hand is from the pose, (k,), for joint values (k, 4)."""
-    x, y, z, omega, length2, length3, constant = pose or own_pose(variant)
+    x, y, z, omega, length2, length3, constant = pose or own_pose(mine)
     hands = robot(length2, length3, constant).forward(q)
     turn = np.arctan2(hands[:, 1, 0], hands[:, 0, 0]) - omega
     return np.linalg.norm(hands[:, :3, 3] - (x, y, z), axis=1) + np.abs((turn + np.pi) % (2 * np.pi) - np.pi)
 
 
-def own_pose(variant):
-    mine = variant.numbers("scara_s600")
+def own_pose(mine):
     return mine["x"], mine["y"], mine["z"], np.radians(mine["omega"]), mine["d2"], mine["d3"], R30
 
 
@@ -253,7 +252,7 @@ def constant_missing(share=0.7):
 QUESTIONS = (
     Question(
         "scara_s600.table",
-        reference=lambda variant: ROWS,
+        reference=ROWS,
         mistakes=(
             mistake("z4_upwards", 0.6, Z4_IS_DOWN, z4_up),
             constant_missing(),
@@ -277,7 +276,7 @@ QUESTIONS = (
     ),
     Question(
         "scara_s600.T14",
-        reference=lambda variant: T14,
+        reference=T14,
         mistakes=(
             mistake("z4_upwards", 0.5, Z4_IS_DOWN, lambda _: product([*TRANSFORMS[1:3], modified_dh(0, 0, 0, t4)])),
             symbol_negated(t4, "angles_added", ANGLES_ADDED),
@@ -288,7 +287,7 @@ QUESTIONS = (
     ),
     Question(
         "scara_s600.wrong_cell",
-        reference=lambda variant: HAND[1, 0],
+        reference=HAND[1, 0],
         mistakes=(
             misprint(
                 sympy.sin(t1) * sympy.cos(t2 - t4) - sympy.cos(t1) * sympy.sin(t2 - t4),
@@ -307,7 +306,7 @@ QUESTIONS = (
     ),
     Question(
         "scara_s600.misprints",
-        reference=lambda variant: [2, 4, 7],
+        reference=[2, 4, 7],
         mistakes=(
             mistake(
                 "system_blamed",
@@ -332,7 +331,7 @@ QUESTIONS = (
     ),
     Question(
         "scara_s600.linear",
-        reference=lambda variant: solved(B1, B2),
+        reference=solved(B1, B2),
         mistakes=(
             misprint(
                 solved(B2, B1),
@@ -356,7 +355,7 @@ QUESTIONS = (
     ),
     Question(
         "scara_s600.mgi",
-        reference=lambda variant: mgi,
+        reference=mgi,
         mistakes=(
             mistake(
                 "one_posture_missing",
@@ -391,12 +390,12 @@ QUESTIONS = (
         angles=(0, 1, 3),
         tolerance=1e-4,
         probe=probes,
-        group=where,
-        misses=misses,
+        case=where,
+        residual=residual,
     ),
     Question(
         "scara_s600.configurations",
-        reference=lambda variant: configurations(own_pose(variant)),
+        reference=lambda mine: configurations(own_pose(mine)),
         mistakes=(
             mistake(
                 "one_turn_only",
@@ -412,11 +411,11 @@ QUESTIONS = (
         ),
         angles=(0, 1),
         tolerance=1e-3,
-        misses=misses,
+        residual=residual,
     ),
     Question(
         "scara_s600.classic",
-        reference=lambda variant: CLASSIC,
+        reference=CLASSIC,
         mistakes=(
             mistake(
                 "modified_table",
@@ -446,7 +445,7 @@ QUESTIONS = (
     ),
     Question(
         "scara_s600.cousin",
-        reference=lambda variant: [-(r3 + r30), -t4],
+        reference=[-(r3 + r30), -t4],
         mistakes=(
             mistake(
                 "sign_of_the_height",

@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 import sympy
 
-from autograder.judge import Made, Question, mistake
+from autograder.judge import Question, mistake
 from autograder.judge.chain import transforms
 from autograder.judge.misconceptions import (
     arguments_in_degrees,
@@ -163,42 +163,32 @@ def kind_of_table(rows) -> str:
 KR210 = rows_of(robots.KR210.table)
 
 
-def lengths_of(numbers) -> dict[str, float]:
-    """The lengths of the KR210's table that follow from a list of joint origins."""
-    n = numbers
-    return {"d1": n["z1"] + n["z2"], "a1": n["x2"], "a2": n["z3"], "a3": n["z4"], "d4": n["x4"] + n["x5"]}
-
-
-def arm(numbers, d6=0, **lengths) -> list[list]:
-    """The rows of an arm like the KR210; `lengths` and `d6` put in what does not belong there."""
-    known = lengths_of(numbers) | lengths
-    rows = [[known.get(str(cell), cell) for cell in row] for row in KR210]
-    rows[5][3] = d6
+def arm(
+    mine,
+    d1=lambda origins: origins.z1 + origins.z2,
+    a1=lambda origins: origins.x2,
+    d4=lambda origins: origins.x4 + origins.x5,
+    d6=lambda origins: 0,
+) -> list[list]:
+    """The rows of an arm like the KR210; each keyword takes a length from the student's list of joint origins."""
+    lengths = {"d1": d1(mine), "a1": a1(mine), "a2": mine.z3, "a3": mine.z4, "d4": d4(mine)}
+    rows = [[lengths.get(str(cell), cell) for cell in row] for row in KR210]
+    rows[5][3] = d6(mine)
     return rows
 
 
-def one_row_of_the_list(found, d1=None, d4=None):
-    changed = {"d1": d1, "d4": d4}
-    return found.but(**{name: found.of["numbers"][row] for name, row in changed.items() if row})
-
-
-def with_long_side(found, length, distance):
-    """A length of the table replaced by a distance between two origins of the list."""
-    return found.but(**{length: float(distance(found.of["numbers"]))})
-
-
-def gripper(numbers, turn=((0.0, 0, 1), (0, -1, 0), (1, 0, 0)), ahead=(0, 0, 1), rows=("x6", "xg")) -> list[list]:
+def gripper(mine, turn=((0.0, 0, 1), (0, -1, 0), (1, 0, 0)), ahead=(0, 0, 1), rows=("x6", "xg")) -> list[list]:
     """Transform from frame 6 to the gripper as nested lists; with the defaults right."""
     matrix = np.eye(4)
     matrix[:3, :3] = turn
-    matrix[:3, 3] = np.array(ahead) * sum(numbers[row] for row in rows)
+    matrix[:3, 3] = np.array(ahead) * sum(mine[row] for row in rows)
     return [[int(cell) if cell == int(cell) else float(cell) for cell in row] for row in matrix]
 
 
 QUESTIONS = (
     Question(
         "tables.convention",
-        reference=lambda variant: PRINTED_TABLES,
+        reference=PRINTED_TABLES,
         mistakes=(
             mistake(
                 "headers_believed",
@@ -242,7 +232,7 @@ QUESTIONS = (
     ),
     Question(
         "tables.planar",
-        reference=lambda variant: planar,
+        reference=planar,
         mistakes=(
             mistake(
                 "angle_not_summed",
@@ -279,11 +269,11 @@ QUESTIONS = (
         ),
         angles=(2,),
         probe=arms,
-        group=lambda lengths, angles: "arms with one or two links" if len(lengths) < 3 else "arms with more links",
+        case=lambda lengths, angles: "arms with one or two links" if len(lengths) < 3 else "arms with more links",
     ),
     Question(
         "tables.classic_rows",
-        reference=lambda variant: RX90_CLASSIC,
+        reference=RX90_CLASSIC,
         mistakes=(
             mistake(
                 "modified_rows_copied",
@@ -314,7 +304,7 @@ QUESTIONS = (
     ),
     Question(
         "tables.wrist",
-        reference=lambda variant: WRIST,
+        reference=WRIST,
         mistakes=(
             misprint(
                 WRIST_PRINTED,
@@ -340,7 +330,7 @@ QUESTIONS = (
     ),
     Question(
         "tables.puma_row",
-        reference=lambda variant: PUMA_ROW,
+        reference=PUMA_ROW,
         mistakes=(
             misprint(
                 lambda row: [*row[:2], PUMA_PRINTED_ROW[2], *row[3:]],
@@ -366,7 +356,7 @@ QUESTIONS = (
     ),
     Question(
         "tables.freedoms",
-        reference=lambda variant: freedoms,
+        reference=freedoms,
         mistakes=(
             mistake(
                 "joints_counted",
@@ -399,30 +389,34 @@ QUESTIONS = (
             ),
         ),
         probe=robots_at_random,
-        group=kind_of_table,
+        case=kind_of_table,
     ),
     Question(
         "tables.arm",
-        reference=lambda variant: Made(arm, numbers=variant.numbers("tables")),
+        reference=arm,
         mistakes=(
             mistake(
                 "rows_of_the_list_not_added",
                 0.5,
                 "**A d along a common axis is not complete.** Two rows of the list run along the same axis: with z1 = {z1} and z2 = {z2}, how "
                 "high lies the common normal of axes 1 and 2? And how far is it from the elbow to the wrist centre?",
-                partial(one_row_of_the_list, d1="z1"),
-                partial(one_row_of_the_list, d1="z2"),
-                partial(one_row_of_the_list, d4="x4"),
-                partial(one_row_of_the_list, d1="z1", d4="x4"),
+                wrong=[
+                    {"d1": lambda origins: origins.z1},
+                    {"d1": lambda origins: origins.z2},
+                    {"d4": lambda origins: origins.x4},
+                    {"d1": lambda origins: origins.z1, "d4": lambda origins: origins.x4},
+                ],
             ),
             mistake(
                 "hypotenuse_for_length",
                 0.5,
                 "**The straight distance between two origins stands where one of its components belongs.** a runs along X, d along Z: two "
                 "legs of a triangle, not its long side.",
-                lambda arm: with_long_side(arm, "a1", lambda n: np.hypot(n["x2"], n["z2"])),
-                lambda arm: with_long_side(arm, "d4", lambda n: np.hypot(n["x4"] + n["x5"], n["z4"])),
-                lambda arm: with_long_side(arm, "d4", lambda n: np.hypot(n["x4"], n["z4"]) + n["x5"]),
+                wrong=[
+                    {"a1": lambda origins: float(np.hypot(origins.x2, origins.z2))},
+                    {"d4": lambda origins: float(np.hypot(origins.x4 + origins.x5, origins.z4))},
+                    {"d4": lambda origins: float(np.hypot(origins.x4, origins.z4)) + origins.x5},
+                ],
             ),
             offset_missing(2),
             mistake(
@@ -430,8 +424,7 @@ QUESTIONS = (
                 0.7,
                 "**O6 was put where the list has joint 6.** Axes 4, 5 and 6 meet in one point, the wrist centre: with all three origins there "
                 "the table is shortest. The way ahead belongs to the gripper.",
-                lambda arm: arm.but(d6=arm.of["numbers"]["x6"]),
-                lambda arm: arm.but(d6=arm.of["numbers"]["x6"] + arm.of["numbers"]["xg"]),
+                wrong=[{"d6": lambda origins: origins.x6}, {"d6": lambda origins: origins.x6 + origins.xg}],
             ),
             sign_of("a", 4),
             sign_of("alpha", 2, 4, 5, 6),
@@ -440,33 +433,34 @@ QUESTIONS = (
     ),
     Question(
         "tables.gripper",
-        reference=lambda variant: Made(gripper, numbers=variant.numbers("tables")),
+        reference=gripper,
         mistakes=(
             mistake(
                 "not_turned",
                 0.4,
                 "**The axes are not turned.** At zero, compare frame 6 (Z6 ahead, X6 up) with the gripper's (x ahead, z up).",
-                lambda gripper: gripper.but(turn=np.eye(3)),
+                wrong={"turn": np.eye(3)},
             ),
             mistake(
                 "one_row_of_the_list",
                 0.6,
                 "**The way ahead is not complete.** From the wrist centre to the gripper there are two rows of the list: {x6} and {xg} m.",
-                lambda gripper: gripper.but(rows=("xg",)),
-                lambda gripper: gripper.but(rows=("x6",)),
+                wrong=[{"rows": ("xg",)}, {"rows": ("x6",)}],
             ),
             mistake(
                 "ahead_along_x",
                 0.6,
                 "**The way ahead is along x.** It is x of the *gripper*; in frame 6, from which this transform is seen, ahead is another axis.",
-                lambda gripper: gripper.but(ahead=(1, 0, 0)),
+                wrong={"ahead": (1, 0, 0)},
             ),
             mistake(
                 "one_quarter_turn_only",
                 0.5,
                 "**One of the two turns is missing.** Compare all three axes, not only x: which way does the gripper's y point in frame 6?",
-                lambda gripper: gripper.but(turn=np.array([[0.0, 0, -1], [0, 1, 0], [1, 0, 0]])),
-                lambda gripper: gripper.but(turn=np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]])),
+                wrong=[
+                    {"turn": ((0.0, 0, -1), (0, 1, 0), (1, 0, 0))},
+                    {"turn": ((0.0, 0, 1), (0, 1, 0), (-1, 0, 0))},
+                ],
             ),
         ),
         tolerance=1e-4,

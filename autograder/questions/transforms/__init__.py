@@ -7,7 +7,7 @@ from itertools import combinations
 import numpy as np
 import sympy
 
-from autograder.judge import Made, Question, mistake
+from autograder.judge import Question, mistake
 from autograder.judge.misconceptions import (
     classic_table,
     degrees,
@@ -38,12 +38,12 @@ GENERAL = a, alpha, d, theta = sympy.symbols("a alpha d theta")
 # ---------------------------------------------------------------- a point in two frames
 
 
-def seen_from_a(numbers, shift=1.0, turn=1.0, unit=np.pi / 180, shift_turned=False) -> list[float]:
+def seen_from_a(mine, shift=1.0, turn=1.0, unit=np.pi / 180, shift_turned=False) -> list[float]:
     """Coordinates in frame A of the point given in frame B; with the defaults right."""
-    angle = turn * unit * numbers["phi"]
+    angle = turn * unit * mine.phi
     rotation = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-    way = shift * np.array([numbers["tx"], numbers["ty"]])
-    point = np.array([numbers["px"], numbers["py"]])
+    way = shift * np.array([mine.tx, mine.ty])
+    point = np.array([mine.px, mine.py])
     return (rotation @ (point + way) if shift_turned else rotation @ point + way).tolist()
 
 
@@ -154,35 +154,35 @@ def round_twist(T) -> str:
 QUESTIONS = (
     Question(
         "transforms.point",
-        reference=lambda variant: Made(seen_from_a, numbers=variant.numbers("transforms")),
+        reference=seen_from_a,
         mistakes=(
             mistake(
                 "turned_the_other_way",
                 0.5,
                 "**The point is turned the other way.** The columns of R, not its rows, are the axes of B: with phi = {phi} degrees "
                 "x_B points up to the right.",
-                lambda seen: seen.but(turn=-1.0),
+                wrong={"turn": -1.0},
             ),
             mistake(
                 "shift_turned_too",
                 0.5,
                 "**The way from O_A to O_B was turned as well.** It is given along the axes of A already: turn the point, then add.",
-                lambda seen: seen.but(shift_turned=True),
+                wrong={"shift_turned": True},
             ),
             mistake(
                 "shift_missing",
                 0.4,
                 "**The way from O_A to O_B is missing.** Your point is turned, but counted from O_B.",
-                lambda seen: seen.but(shift=0.0),
+                wrong={"shift": 0.0},
             ),
             mistake(
                 "degrees",
                 0.6,
                 "**The angle {phi} is taken in radians.** It is given in degrees: numpy's cos and sin want `np.radians` of it.",
-                lambda seen: seen.but(unit=1.0),
+                wrong={"unit": 1.0},
             ),
             summed_in_the_wrong_frame(
-                steps=(lambda seen: seen.but(turn=0.0),),
+                wrong={"turn": 0.0},
                 feedback="**Coordinates of two frames are added as they stand.** {px} m along x_B is not {px} m along x_A: frame B is "
                 "turned by {phi} degrees.",
             ),
@@ -191,7 +191,7 @@ QUESTIONS = (
     ),
     Question(
         "transforms.commute",
-        reference=lambda variant: COMMUTE,
+        reference=COMMUTE,
         mistakes=(
             mistake(
                 "translations_do_not_commute",
@@ -219,7 +219,7 @@ QUESTIONS = (
     ),
     Question(
         "transforms.operators",
-        reference=lambda variant: [alpha, a, theta, d],
+        reference=[alpha, a, theta, d],
         mistakes=(
             misprint(
                 lambda found: [found[0], found[0], *found[2:]],
@@ -244,7 +244,7 @@ QUESTIONS = (
     ),
     Question(
         "transforms.inverse",
-        reference=lambda variant: modified_dh_inverse(*GENERAL),
+        reference=modified_dh_inverse(*GENERAL),
         mistakes=(
             inverse_by_transposing(),
             inverse_keeps_position(),
@@ -264,7 +264,7 @@ QUESTIONS = (
     ),
     Question(
         "transforms.classic",
-        reference=lambda variant: classic_dh(*GENERAL),
+        reference=classic_dh(*GENERAL),
         mistakes=(
             misprint(
                 lambda matrix: matrix[:, :3].row_join(matrix[:, 3].subs({a: d, d: a}, simultaneous=True)),
@@ -294,7 +294,7 @@ QUESTIONS = (
     ),
     Question(
         "transforms.frame_place",
-        reference=lambda variant: "B",
+        reference="B",
         mistakes=(
             option(
                 "A",
@@ -316,7 +316,7 @@ QUESTIONS = (
     ),
     Question(
         "transforms.convert",
-        reference=lambda variant: ROWS,
+        reference=ROWS,
         mistakes=(
             classic_table(
                 feedback="**The classic rows were copied.** In the modified table row i holds a and alpha of the link *before* "
@@ -337,7 +337,7 @@ QUESTIONS = (
     ),
     Question(
         "transforms.parameters",
-        reference=lambda variant: reader(),
+        reference=reader(),
         mistakes=(
             mistake(
                 "d_by_division",
@@ -372,6 +372,6 @@ QUESTIONS = (
         ),
         angles=(1, 3),
         probe=matrices,
-        group=round_twist,
+        case=round_twist,
     ),
 )

@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 import sympy
 
-from autograder.judge import Made, Question, mistake
+from autograder.judge import Question, mistake
 from autograder.judge.misconceptions import (
     angle_not_summed,
     angles_subtracted,
@@ -41,15 +41,21 @@ PRODUCTS_ADDED = JACOBIAN[0, 0] * JACOBIAN[1, 1] + JACOBIAN[0, 1] * JACOBIAN[1, 
 # ---------------------------------------------------------------- the student's own arm
 
 
-def own_arm(numbers, *, turn=None, elbow=None) -> RRArm:
-    """The arm of a student's numbers; `turn` and `elbow` replace its ranges (radians)."""
-    q1 = turn or tuple(np.radians([numbers["t1_min"], numbers["t1_max"]]))
-    q2 = elbow or tuple(np.radians([numbers["t2_min"], numbers["t2_max"]]))
-    return RRArm(numbers["L1"], numbers["L2"], q1, q2)
+def own_arm(mine) -> RRArm:
+    """The arm of the student's lengths and ranges."""
+    return RRArm(mine.L1, mine.L2, _range(mine.t1_min, mine.t1_max), _range(mine.t2_min, mine.t2_max))
 
 
-def cloud(arm, shape="grid") -> list[list[float]]:
-    """Points of the workspace as rows; other shapes than the grid are mistaken."""
+def _range(low, high) -> tuple[float, float]:
+    """A range in degrees, in radians."""
+    return tuple(np.radians([low, high]))
+
+
+def cloud(mine, shape="grid", ranges="own") -> list[list[float]]:
+    """Points of the workspace as rows."""
+    arm = own_arm(mine)
+    if ranges == "exchanged":
+        arm = replace(arm, q1=arm.q2, q2=arm.q1)
     q1, q2 = np.linspace(*arm.q1, 60), np.linspace(*arm.q2, 24)
     if shape == "diagonal":
         together = np.stack([np.linspace(*limits, 400) for limits in (arm.q1, arm.q2)], axis=-1)
@@ -66,43 +72,27 @@ def _direction(angle):
     return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
 
 
-class Area(float):
-    """An area in square metres. A wrong step needs to know the arm that it was made of."""
-
-    def __new__(cls, arm, value=None):
-        self = super().__new__(cls, arm.area() if value is None else value)
-        self.arm = arm
-        return self
-
-    def but(self, value):
-        """Another area for the same arm: `value` of the arm."""
-        return Area(self.arm, value(self.arm))
-
-    def times(self, factor):
-        return Area(self.arm, self * factor(self.arm))
+def area(mine, turn="own", sheet="integrated") -> float:
+    """Area in square metres that the student's arm sweeps with its elbow bent to one side."""
+    arm = own_arm(mine)
+    low, high = arm.q2
+    patch = {"integrated": abs(np.cos(low) - np.cos(high)), "product": high - low}[sheet]
+    width = arm.q1[1] - arm.q1[0] if turn == "own" else 2 * np.pi
+    return arm.l1 * arm.l2 * width * patch
 
 
-def width(limits) -> float:
-    return limits[1] - limits[0]
-
-
-def sheet(arm, combine) -> float:
-    """The area formula with something else in place of the difference of two cosines."""
-    return arm.l1 * arm.l2 * width(arm.q1) * combine(*arm.q2)
-
-
-def both_ways(numbers) -> RRArm:
-    """The student's arm with a full turn of joint 1, and an elbow that bends both ways."""
-    return own_arm(numbers, turn=(-np.pi, np.pi), elbow=tuple(np.radians([-numbers["back"], numbers["t2_max"]])))
-
-
-def whole_ring(arm) -> float:
-    return RRArm(arm.l1, arm.l2).area()
-
-
-def sheets_added(arm) -> float:
-    parts = [(arm.q2[0], 0.0), (0.0, arm.q2[1])]
-    return sum(RRArm(arm.l1, arm.l2, arm.q1, part).area() for part in parts)
+def full_turn_area(mine, how="ring") -> float:
+    """Area with a full turn of joint 1, and an elbow that bends both ways."""
+    arm = RRArm(mine.L1, mine.L2, (-np.pi, np.pi), _range(-mine.back, mine.t2_max))
+    low, high = arm.q2
+    match how:
+        case "sheets added":
+            return sum(replace(arm, q2=part).area() for part in ((low, 0.0), (0.0, high)))
+        case "across the fold":
+            return arm.l1 * arm.l2 * 2 * np.pi * abs(np.cos(low) - np.cos(high))
+        case "no stops":
+            return RRArm(arm.l1, arm.l2).area()
+    return arm.area()
 
 
 # ---------------------------------------------------------------- limits of reach
@@ -250,7 +240,7 @@ SECTION = [sympy.simplify(ELBOW_HAND[0]), sympy.simplify(ELBOW_HAND[2])]
 QUESTIONS = (
     Question(
         "workspace.point",
-        reference=lambda variant: POINT,
+        reference=POINT,
         mistakes=(
             misprint(
                 as_printed,
@@ -276,33 +266,33 @@ QUESTIONS = (
     ),
     Question(
         "workspace.cloud",
-        reference=lambda variant: Made(cloud, arm=own_arm(variant.numbers("workspace"))),
+        reference=cloud,
         mistakes=(
             mistake(
                 "one_index_for_both_joints",
                 0.3,
                 "**Your points lie on one curve.** Both joints march in step; take every value of joint 2 for every value of "
                 "joint 1.",
-                lambda cloud: cloud.but(shape="diagonal"),
+                wrong={"shape": "diagonal"},
             ),
             mistake(
                 "ranges_exchanged",
                 0.4,
                 "**Each joint has the other's range.** Joint 1 goes from {t1_min} to {t1_max} degrees.",
-                lambda cloud: cloud.but(arm=replace(cloud.of["arm"], q1=cloud.of["arm"].q2, q2=cloud.of["arm"].q1)),
+                wrong={"ranges": "exchanged"},
             ),
             mistake(
                 "angle_not_summed",
                 0.3,
                 "**The forearm is drawn as if theta2 were measured from the x axis.** It goes from the upper arm to the forearm.",
-                lambda cloud: cloud.but(shape="absolute"),
+                wrong={"shape": "absolute"},
             ),
         ),
         tolerance=0.04,
     ),
     Question(
         "workspace.reach",
-        reference=lambda variant: exact_reach,
+        reference=exact_reach,
         mistakes=(
             mistake(
                 "ends_of_the_range_only",
@@ -337,11 +327,11 @@ QUESTIONS = (
             ),
         ),
         probe=ranges,
-        group=kind_of_range,
+        case=kind_of_range,
     ),
     Question(
         "workspace.det",
-        reference=lambda variant: two_link_determinant(L1, L2, t2),
+        reference=two_link_determinant(L1, L2, t2),
         mistakes=(
             mistake(
                 "columns_exchanged",
@@ -366,59 +356,59 @@ QUESTIONS = (
     ),
     Question(
         "workspace.area",
-        reference=lambda variant: Area(own_arm(variant.numbers("workspace"))),
+        reference=area,
         mistakes=(
             mistake(
                 "degrees",
                 0.5,
                 "**The width of the range of theta1 is in degrees.** An arc has the length r times the angle in radians.",
-                lambda area: area.times(lambda arm: 180 / np.pi),
+                np.degrees,
             ),
             mistake(
                 "full_turn",
                 0.5,
                 "**This is the area for a full turn of joint 1.** Its range is narrower.",
-                lambda area: area.times(lambda arm: 2 * np.pi / width(arm.q1)),
+                wrong={"turn": "full"},
             ),
             mistake(
                 "sine_not_integrated",
                 0.3,
                 "**The patches do not all have the same size.** You multiplied the two widths; the determinant depends on theta2 and "
                 "must be integrated.",
-                lambda area: area.but(lambda arm: sheet(arm, lambda low, high: high - low)),
+                wrong={"sheet": "product"},
             ),
         ),
         tolerance=5e-4,
     ),
     Question(
         "workspace.full_turn",
-        reference=lambda variant: Area(both_ways(variant.numbers("workspace"))),
+        reference=full_turn_area,
         mistakes=(
             mistake(
                 "sheets_added",
                 0.4,
                 "**The areas of the two sheets are added.** Where they lie on each other a point counts once.",
-                lambda area: area.but(sheets_added),
+                wrong={"how": "sheets added"},
             ),
             mistake(
                 "formula_across_the_fold",
                 0.3,
                 "**The formula for one sheet was used across the stretched arm.** There the sine of theta2 changes its sign: the patches "
                 "of one side were subtracted from those of the other.",
-                lambda area: area.but(lambda arm: sheet(arm, lambda low, high: abs(np.cos(low) - np.cos(high)))),
+                wrong={"how": "across the fold"},
             ),
             mistake(
                 "stops_ignored",
                 0.4,
                 "**This is the ring without stops.** Your elbow cannot be folded: what is its smallest distance from the base?",
-                lambda area: area.but(whole_ring),
+                wrong={"how": "no stops"},
             ),
         ),
         tolerance=5e-4,
     ),
     Question(
         "workspace.count",
-        reference=lambda variant: count(),
+        reference=count(),
         mistakes=(
             mistake(
                 "stops_ignored",
@@ -449,11 +439,11 @@ QUESTIONS = (
             ),
         ),
         probe=places,
-        group=kind_of_place,
+        case=kind_of_place,
     ),
     Question(
         "workspace.section",
-        reference=lambda variant: SECTION,
+        reference=SECTION,
         mistakes=(
             angle_not_summed([L1 * f(t2) + L2 * f(t3) for f in (sympy.cos, sympy.sin)]),
             angles_subtracted(t3),
@@ -470,7 +460,7 @@ QUESTIONS = (
     ),
     Question(
         "workspace.aspects",
-        reference=lambda variant: "C",
+        reference="C",
         mistakes=(
             option(
                 "A",

@@ -1,0 +1,57 @@
+"""A student's function: what it returned for the arguments it was asked with, case by case."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from .decode import Malformed, Value
+from .expected import expected_result, read_result
+from .kinds import KINDS, Comparison
+from .question import Question, Way
+from .tree import Verdict, walk
+
+
+def judge_results(question: Question, arguments: list[list], results: list[Value], student: str) -> Verdict:
+    """The verdict on a function that returned `results` for the argument lists `arguments`.
+
+    Raises `Malformed` if none of the results has the form asked for.
+    """
+    form = question.public.returns
+    found = [read_result(form, result) for result in results]
+    if all(isinstance(result, Malformed) for result in found):
+        raise found[0]
+    calls = list(zip(arguments, found, strict=True))
+
+    def compare(ways: tuple[Way, ...], turn: float, args: list, result: object) -> Comparison:
+        other, family = expected_result(question, ways, student, args)
+        if isinstance(result, Malformed) or isinstance(other, Malformed):
+            return Comparison(isinstance(result, Malformed) and isinstance(other, Malformed), 0.0)
+        setting = question.setting() if ways else question.setting(student, *args)
+        return KINDS[form.kind].compare(form, result, other, replace(setting, turn=turn, family=family and not ways))
+
+    cases: dict[str, list[Comparison]] = {}
+    for args, result in calls:
+        cases.setdefault(question.case(*args), []).append(compare((), 2 * np.pi, args, result))
+    wrong = tuple(
+        _describe(case, compared) for case, compared in cases.items() if not all(one.equal for one in compared)
+    )
+    verdict = walk(
+        question,
+        student,
+        Comparison(not wrong, 1 - len(wrong) / len(cases), wrong),
+        lambda ways, turn: all(compare(ways, turn, *call).equal for call in calls),
+    )
+    # A constant is right now and then: "no solution" wherever there is none. It shows no understanding of any case.
+    if verdict.share > 0 and wrong and len(set(results)) == 1:
+        return Verdict(
+            0.0, "nothing_matched", "**Not right.** Your function returns the same for all arguments that were tried."
+        )
+    return verdict
+
+
+def _describe(case: str, compared: list[Comparison]) -> str:
+    """Which case is wrong, and by what at the first argument list that shows it."""
+    remark = next((one.remarks[-1] for one in compared if not one.equal and one.remarks), "")
+    return f"wrong for {case}" + (f" ({remark})" if remark else "")

@@ -1,0 +1,84 @@
+"""The response tree: right, then each mistake, then two mistakes at once, then the parts that are right."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import permutations, product
+
+from .kinds import Comparison
+from .question import Question, Way
+
+Matches = Callable[[tuple[Way, ...], float], bool]
+
+UNEXPLAINED = frozenset({"nothing_matched", "partly_right", "one_cell", "malformed"})
+"""Notes of wrong answers in which no misconception was found."""
+
+# What a mistake may run into: it fails where the student's function does, some mistakes exclude each other.
+IMPOSSIBLE = (ArithmeticError, AttributeError, IndexError, KeyError, TypeError, ValueError)
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Share of the points (0 to 1), answer note (a stable key) and feedback (Markdown)."""
+
+    share: float
+    note: str
+    feedback: str
+
+
+def is_forgivable(verdict: Verdict) -> bool:
+    """Whether what follows from an answer may earn points although the answer is wrong.
+
+    The mistake has a name, or most of the answer is right: from a guess, or from a table of zeros, everything and
+    nothing follows.
+    """
+    return verdict.share >= 0.5 or (verdict.share > 0 and verdict.note not in UNEXPLAINED)
+
+
+def walk(question: Question, student: str, against_reference: Comparison, matches: Matches) -> Verdict:
+    """The verdict of the first node that fits.
+
+    Parameters
+    ----------
+    against_reference : Comparison
+        The student's answer beside the right one.
+    matches : callable
+        Whether the student's answer is the one with mistakes made in the given ways; angles modulo the given turn.
+    """
+    if against_reference.equal:
+        used = ", ".join(against_reference.remarks)
+        return Verdict(1.0, "right", "**Right.**" + (f" The same chain as ours, with {used}." if used else ""))
+    numbers = question.numbers(student)
+    for node in question.mistakes:
+        if any(_is_match(matches, (way,), node.turn) for way in node.ways):
+            return Verdict(node.share, node.note, _fill_in(node.feedback, numbers))
+    for first, second in permutations(question.mistakes, 2):
+        turn = max(first.turn, second.turn)
+        if any(_is_match(matches, ways, turn) for ways in product(first.ways, second.ways) if _in_order(*ways)):
+            note = "+".join(sorted((first.note, second.note)))
+            feedback = "\n\n".join(_fill_in(node.feedback, numbers) for node in (first, second))
+            return Verdict(first.share * second.share, note, feedback)
+    share = min(question.partial, against_reference.share)
+    what = "; ".join(against_reference.remarks) or "the answer differs from the right one"
+    note = against_reference.note or ("partly_right" if share > 0 else "nothing_matched")
+    return Verdict(share, note, f"**{'Partly right' if share > 0 else 'Not right'}.** {what[0].upper()}{what[1:]}.")
+
+
+def _in_order(first: Way, second: Way) -> bool:
+    """Keywords of the reference act before any step: with a step in front of them nothing else comes out."""
+    return first.step is None or second.step is not None
+
+
+def _is_match(matches: Matches, ways: tuple[Way, ...], turn: float) -> bool:
+    """`matches`, but False where a mistake cannot be made: after another one, or with this student's numbers."""
+    try:
+        return matches(ways, turn)
+    except IMPOSSIBLE:
+        return False
+
+
+def _fill_in(feedback: str, numbers: dict) -> str:
+    """The feedback of a mistake with the student's own numbers in it."""
+    return re.sub(r"\{(\w+)\}", lambda found: f"{numbers[found[1]]}" if found[1] in numbers else found[0], feedback)
