@@ -222,7 +222,9 @@ class Question:
 
 
 def take(steps: Sequence[Step], answer: object) -> object:
-    """The answer after some steps, the first one first."""
+    """The answer after some steps, the first one first; of a family they take the representatives."""
+    if steps and isinstance(answer, Family):
+        answer = answer.solutions
     for step in steps:
         answer = step(answer)
     return answer
