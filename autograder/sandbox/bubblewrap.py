@@ -1,12 +1,13 @@
 """What a sandbox can see, as arguments of ``bwrap``, and the process started from them.
 
 A kernel sees the system read-only, its Python environment read-only, the
-package ``dhkit`` read-only, and private file systems of limited size.  Nothing
+package ``dhkit`` read-only, and private file systems of limited size. Nothing
 of the host can be written, and nothing else of the host can be read.
 """
 
 from __future__ import annotations
 
+import fcntl
 import functools
 import importlib.util
 import marshal
@@ -16,10 +17,9 @@ import random
 import shutil
 import subprocess
 import sys
-import tempfile
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import IO
 
 import psutil
 
@@ -29,15 +29,17 @@ from .limits import Limits
 HOME = "/home/student"
 WORK = HOME + "/work"
 PRIVATE = ("/tmp", "/dev/shm", HOME)
-STUDENT_UID = 1000
+_STUDENT_UID = 1000
+_NICE = 10  # a tenth of the weight of what runs beside it; at 19 it would starve beside anything busy
+_PROBE_SECONDS = 300  # a busy machine may need long for it
 
-SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
-CONFIGURATION = ("/etc/ld.so.cache", "/etc/fonts", "/etc/localtime", "/etc/alternatives", "/etc/mime.types")
-ENVIRONMENT_PARTS = ("bin", "lib", "lib64", "share", "ssl", "pyvenv.cfg")
-NEVER_SHOWN = ("/usr/local/etc",)  # Jupyter and nbgrader configuration may hold passwords
+_SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
+_CONFIGURATION = ("/etc/ld.so.cache", "/etc/fonts", "/etc/localtime", "/etc/alternatives", "/etc/mime.types")
+_ENVIRONMENT_PARTS = ("bin", "lib", "lib64", "share", "ssl", "pyvenv.cfg")
+_NEVER_SHOWN = ("/usr/local/etc",)  # Jupyter and nbgrader configuration may hold passwords
 
-INSTALL = "install it: apt-get install bubblewrap (Fedora: dnf install bubblewrap)"
-NAMESPACES = (
+_INSTALL = "install it: apt-get install bubblewrap (Fedora: dnf install bubblewrap)"
+_NAMESPACES = (
     "this user may not create user namespaces: run as root, or as root allow them with"
     " 'sysctl -w kernel.unprivileged_userns_clone=1' (Debian) or"
     " 'sysctl -w kernel.apparmor_restrict_unprivileged_userns=0' (Ubuntu 24.04 and later);"
@@ -49,7 +51,7 @@ class SandboxUnavailable(RuntimeError):
     """No sandbox can be had here; the message says what is missing and how to get it."""
 
 
-def kernel_environment() -> dict[str, str]:
+def _kernel_environment() -> dict[str, str]:
     """The whole environment of a sandboxed kernel."""
     threads = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS")
     return {
@@ -65,14 +67,14 @@ def kernel_environment() -> dict[str, str]:
     }
 
 
-def python_places() -> list[tuple[str, str]]:
+def _python_places() -> list[tuple[str, str]]:
     """(host path, path inside) of everything the running Python needs, files and folders."""
     prefixes = dict.fromkeys((sys.prefix, sys.exec_prefix, sys.base_prefix, sys.base_exec_prefix))
     places = [
         (os.path.realpath(os.path.join(root, part)), os.path.join(root, part))
         for prefix in prefixes
         for root in dict.fromkeys((prefix, os.path.realpath(prefix)))
-        for part in ENVIRONMENT_PARTS
+        for part in _ENVIRONMENT_PARTS
         if os.path.exists(os.path.join(root, part))
     ]
     hop = sys.executable
@@ -96,7 +98,7 @@ def own_private_folders() -> list[str]:
     return [str(package)] if installed else [str(package), str(package.parent)]
 
 
-def inside(path: str, folder: str) -> bool:
+def _inside(path: str, folder: str) -> bool:
     """Whether path lies strictly below folder."""
     return path != folder and os.path.commonpath((path, folder)) == folder
 
@@ -108,28 +110,28 @@ def mounts(limits: Limits, hidden: Iterable[str] = ()) -> list[str]:
     above them is bound.
     """
     visible: dict[str, list[str]] = {}
-    for path in SYSTEM:
+    for path in _SYSTEM:
         if os.path.islink(path):
             visible[path] = ["--symlink", os.readlink(path), path]
         elif os.path.exists(path):
             visible[path] = ["--ro-bind", path, path]
-    for path in CONFIGURATION:
+    for path in _CONFIGURATION:
         if os.path.exists(path):
             visible[path] = ["--ro-bind", os.path.realpath(path), path]
-    places = python_places()
+    places = _python_places()
     dhkit = package_folder("dhkit")
     if dhkit is not None:
         places.append((os.path.realpath(dhkit), dhkit))
     for source, path in sorted(places, key=lambda place: place[1]):
-        if not any(path == other or inside(path, other) for other in visible):
+        if not any(path == other or _inside(path, other) for other in visible):
             visible[path] = ["--ro-bind", source, path]
 
     masks = [
         path
-        for path in dict.fromkeys((*NEVER_SHOWN, *own_private_folders(), *map(os.path.realpath, hidden)))
-        if os.path.isdir(path) and any(inside(path, other) for other in visible)
+        for path in dict.fromkeys((*_NEVER_SHOWN, *own_private_folders(), *map(os.path.realpath, hidden)))
+        if os.path.isdir(path) and any(_inside(path, other) for other in visible)
     ]
-    needed = [place for place in places if any(inside(place[1], mask) for mask in masks)]
+    needed = [place for place in places if any(_inside(place[1], mask) for mask in masks)]
     # bwrap gives the folders above a mount the mode 0700: only root could pass through them.
     above = {str(parent) for path in visible for parent in Path(path).parents} - {"/"}
     steps = {path: ["--perms", "0755", "--dir", path] for path in above}
@@ -157,7 +159,7 @@ def unused_uid() -> int:
     return random.SystemRandom().randrange(low, high)
 
 
-def process_quota(limits: Limits, uid: int | None) -> int:
+def _process_quota(limits: Limits, uid: int | None) -> int:
     """Value for RLIMIT_NPROC.
 
     Since Linux 5.14 processes are counted per user namespace, before that per
@@ -175,7 +177,7 @@ def process_quota(limits: Limits, uid: int | None) -> int:
     )
 
 
-def resource_limits(limits: Limits, uid: int | None) -> dict[str, tuple[int, int]]:
+def _resource_limits(limits: Limits, uid: int | None) -> dict[str, tuple[int, int]]:
     """Names and (soft, hard) values for setrlimit in each process of the sandbox.
 
     RLIMIT_DATA counts what can be written, so that a large allocation fails
@@ -186,26 +188,26 @@ def resource_limits(limits: Limits, uid: int | None) -> dict[str, tuple[int, int
     same = {
         "RLIMIT_DATA": limits.memory - limits.memory // 8,
         "RLIMIT_AS": limits.memory + (3 << 30),
-        "RLIMIT_NPROC": process_quota(limits, uid),
+        "RLIMIT_NPROC": _process_quota(limits, uid),
         "RLIMIT_FSIZE": limits.file_size,
         "RLIMIT_NOFILE": limits.open_files,
         # 1 and not 0: only so does a system that pipes core dumps into a program make none.
         "RLIMIT_CORE": 1,
     }
     bounds = {name: (value, value) for name, value in same.items()}
-    # At the soft limit comes SIGXCPU, by which the cause is known afterwards.
-    seconds = math.ceil(limits.notebook_seconds)
+    # The whole family is watched from outside; this ends a process where the watch itself does not get to run.
+    seconds = math.ceil(limits.notebook_seconds) + 10
     return bounds | {"RLIMIT_CPU": (seconds, seconds + 5)}
 
 
-def namespaces(uid: int | None) -> list[str]:
+def _namespaces(uid: int | None) -> list[str]:
     """bwrap arguments for namespaces and privileges; uid is given when root starts the sandbox."""
     common = [
         "--unshare-ipc", "--unshare-pid", "--unshare-net", "--unshare-uts", "--unshare-cgroup-try",
         "--hostname", "sandbox", "--die-with-parent", "--new-session", "--cap-drop", "ALL",
     ]  # fmt: skip
     if uid is None:
-        return [*common, "--unshare-user", "--uid", str(STUDENT_UID), "--gid", str(STUDENT_UID)]
+        return [*common, "--unshare-user", "--uid", str(_STUDENT_UID), "--gid", str(_STUDENT_UID)]
     return [*common, "--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID"]
 
 
@@ -213,62 +215,85 @@ def start(
     argv: Sequence[str],
     *,
     limits: Limits,
-    folder: Path,
     files: Mapping[str, bytes] | None = None,
     hidden: Iterable[str] = (),
     pass_fds: Sequence[int] = (),
 ) -> subprocess.Popen[bytes]:
     """Start a command in a new sandbox; its output goes to the returned process's ``stdout`` pipe.
 
-    ``files`` (names relative to the home) are written into the private home
-    first.  ``folder`` is a private folder of the caller for files in transit.
+    Parameters
+    ----------
+    argv : sequence of str
+        The command, its program with its whole path.
+    limits : Limits
+    files : mapping of str to bytes, optional
+        Files by their names below the home, written there first.
+    hidden : iterable of str
+        Folders of the host that must not be seen.
+    pass_fds : sequence of int
+        Descriptors that the command inherits.
+
+    Raises
+    ------
+    SandboxUnavailable
+        If there is no bubblewrap, or no filter of system calls for this machine.
     """
     bwrap = shutil.which("bwrap")
     if bwrap is None:
-        raise SandboxUnavailable(f"bubblewrap (bwrap) is not installed; {INSTALL}")
+        raise SandboxUnavailable(f"bubblewrap (bwrap) is not installed; {_INSTALL}")
     uid = unused_uid() if os.geteuid() == 0 else None
     plan = {
         "uid": uid,
         "home": HOME,
         "cwd": WORK,
         "files": dict(files or {}),
-        "limits": resource_limits(limits, uid),
+        "limits": _resource_limits(limits, uid),
+        "nice": _NICE,
         "argv": list(argv),
-        "env": kernel_environment(),
+        "env": _kernel_environment(),
     }
-    arguments = [*namespaces(uid), *mounts(limits, hidden)]
+    arguments = [*_namespaces(uid), *mounts(limits, hidden)]
     try:
         filters = seccomp.program()
     except seccomp.NoFilter as reason:
         raise SandboxUnavailable(f"{reason}; grade on one of those") from None
-    with (
-        handed_over(marshal.dumps(plan), folder) as plan_file,
-        handed_over(filters, folder) as filter_file,
-        tempfile.TemporaryFile(dir=folder) as argument_file,
-    ):
-        arguments += ["--seccomp", str(filter_file.fileno())]
-        argument_file.write(b"\0".join(os.fsencode(word) for word in arguments) + b"\0")
-        argument_file.seek(0)
+    with ExitStack() as stack:
+        plan_file = stack.enter_context(_handed_over(marshal.dumps(plan)))
+        filter_file = stack.enter_context(_handed_over(filters))
+        arguments += ["--seccomp", str(filter_file)]
+        argument_file = stack.enter_context(_handed_over(b"".join(os.fsencode(word) + b"\0" for word in arguments)))
         enter = Path(__file__).with_name("enter.py").read_text()
+        python = [sys.executable, "-I", "-S", "-c", enter, str(plan_file)]
         return subprocess.Popen(
-            [bwrap, "--args", str(argument_file.fileno()), "--", sys.executable, "-I", "-S", "-c", enter],
-            stdin=plan_file,
+            [bwrap, "--args", str(argument_file), "--", *python],
+            stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
-            pass_fds=(argument_file.fileno(), filter_file.fileno(), *pass_fds),
+            pass_fds=(argument_file, filter_file, plan_file, *pass_fds),
             # The first process of a sandbox keeps the environment it was started with, in sight of the others.
             env={},
             start_new_session=True,
         )
 
 
-def handed_over(content: bytes, folder: Path) -> IO[bytes]:
-    """An unnamed file with this content, read from its start."""
-    file = tempfile.TemporaryFile(dir=folder)
-    file.write(content)
-    file.flush()
-    file.seek(0)
-    return file
+@contextmanager
+def _handed_over(content: bytes) -> Iterator[int]:
+    """A descriptor of a file in memory with this content, read from its start, that nobody can change.
+
+    It is not one of the first three, which the first process of a sandbox would keep open in sight of the others.
+    """
+    first = os.memfd_create("handed-over", os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
+    descriptor = fcntl.fcntl(first, fcntl.F_DUPFD_CLOEXEC, 3)
+    os.close(first)
+    try:
+        with open(descriptor, "wb", closefd=False) as file:
+            file.write(content)
+        seals = fcntl.F_SEAL_SEAL | fcntl.F_SEAL_SHRINK | fcntl.F_SEAL_GROW | fcntl.F_SEAL_WRITE
+        fcntl.fcntl(descriptor, fcntl.F_ADD_SEALS, seals)
+        os.lseek(descriptor, 0, os.SEEK_SET)
+        yield descriptor
+    finally:
+        os.close(descriptor)
 
 
 @functools.cache
@@ -278,15 +303,15 @@ def available() -> str | None:
         return f"bubblewrap exists for Linux only, this is {sys.platform}"
     packages = [folder for folder in map(package_folder, ("ipykernel", "dhkit")) if folder]
     probe = f"for folder in {packages}: open(folder + '/__init__.py').close()"
-    with tempfile.TemporaryDirectory(prefix="autograder-probe-") as folder:
-        try:
-            process = start([sys.executable, "-c", probe], limits=Limits(), folder=Path(folder))
-            output, _ = process.communicate(timeout=60)
-        except SandboxUnavailable as error:
-            return str(error)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            return "a trial sandbox did not finish within 60 s"
+    try:
+        process = start([sys.executable, "-c", probe], limits=Limits())
+        output, _ = process.communicate(timeout=_PROBE_SECONDS)
+    except SandboxUnavailable as error:
+        return str(error)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.communicate()
+        return f"a trial sandbox did not finish within {_PROBE_SECONDS} s"
     if process.returncode == 0:
         return None
     return explain(output.decode(errors="replace").strip())
@@ -297,8 +322,9 @@ def explain(output: str) -> str:
     if "nknown option" in output:
         return f"bubblewrap is too old (0.8 or newer is needed): {output.splitlines()[0]}"
     refused = ("No permissions to creat", "Operation not permitted", "setting up uid map", "ermission denied")
-    if output.startswith("bwrap:") and any(words in output for words in refused):
-        return f"bubblewrap cannot build a sandbox ({output.splitlines()[0]}): {NAMESPACES}"
+    unreadable = "find source path" in output and "ermission denied" in output
+    if output.startswith("bwrap:") and not unreadable and any(words in output for words in refused):
+        return f"bubblewrap cannot build a sandbox ({output.splitlines()[0]}): {_NAMESPACES}"
     if "ermission denied" in output:
         return (
             "a sandboxed kernel, which is not root even when root starts it, cannot read its Python environment or"

@@ -10,29 +10,33 @@ from typing import Any
 import nbformat
 import zmq
 import zmq.asyncio
+from jupyter_client.asynchronous.client import AsyncKernelClient
 from jupyter_client.manager import AsyncKernelManager
 from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionComplete
 from nbformat import NotebookNode
 
+from .clock import LOAD_FACTOR, Spent, TimeUp, time_up
 from .kernelspec import SandboxKernelSpecs
 from .limits import Limits
 from .messages import MalformedMessage, Message, as_text, decode, output_content
 from .provisioner import SandboxProvisioner
 
+# Seconds in which nothing holds the kernel up, like the bounds on a cell.
 START_SECONDS = 60.0
-INTERRUPT_SECONDS = 3.0  # what a cell gets to end after an interrupt before its kernel is killed
-SETTLE_SECONDS = 5.0  # what the other half of a cell's end may lag behind
-POLL_SECONDS = 0.2
-PROBE_SECONDS = 0.5  # until a kernel that was interrupted is asked once more whether it is ready
-MESSAGE_OVERHEAD = 200  # bytes: an output costs memory beyond its text
-SHARE = 8  # a cell may always use this part of the notebook's quota,
-SHARES_END = 4  # until the notebook has used its quota this many times
-FLOOD = 16  # a cell that goes on beyond the quota is let run, unheard, until it has printed the quota this many times
-KEPT_BYTES = 16 << 10  # of the outputs of a cell that was stopped for what it printed
-QUEUED_MESSAGES = 8
-MESSAGE_CHARACTERS = 300
-OUT_OF_MEMORY = ("MemoryError", "_ArrayMemoryError")
+_INTERRUPT_SECONDS = 3.0  # what a cell gets to end after an interrupt before its kernel is killed
+_SETTLE_SECONDS = 5.0  # what the other half of a cell's end may lag behind
+
+_POLL_SECONDS = 0.2
+_PROBE_SECONDS = 0.5  # until a kernel that was interrupted is asked once more whether it is ready
+_MESSAGE_OVERHEAD = 200  # bytes: an output costs memory beyond its text
+_SHARE = 8  # a cell may always use this part of the notebook's quota,
+_SHARES_END = 4  # until the notebook has used its quota this many times
+_FLOOD = 16  # a cell that goes on beyond the quota is let run, unheard, until it has printed the quota this many times
+_KEPT_BYTES = 16 << 10  # of the outputs of a cell that was stopped for what it printed
+_QUEUED_MESSAGES = 8
+_MESSAGE_CHARACTERS = 300
+_OUT_OF_MEMORY = ("MemoryError", "_ArrayMemoryError")
 
 
 class KernelStartError(RuntimeError):
@@ -43,24 +47,40 @@ class KernelStartError(RuntimeError):
 class CellRun:
     """What happened in one code cell.
 
-    ``status`` is "ok", "error", "timeout", "output_limit", "memory", "died" or
-    "not_run"; ``message`` one sentence for a lecturer, empty when all is well;
-    ``outputs`` the cell's outputs in notebook format, within the limits.
+    Attributes
+    ----------
+    status : str
+        "ok", "error", "timeout", "output_limit", "memory", "died" or "not_run".
+    message : str
+        One sentence for a lecturer, empty when all is well.
+    outputs : list of NotebookNode
+        The cell's outputs in notebook format, within the limits.
+    doubtful : bool
+        Whether the machine may be to blame: time ran out, or the kernel ended for no reason that is known.
     """
 
     status: str
     message: str = ""
     outputs: list[NotebookNode] = field(default_factory=list)
+    doubtful: bool = False
 
 
 @dataclass
-class Progress:
+class _Progress:
     """State of a running cell.
 
-    ``allowed`` is what its outputs may add up to, in bytes, and ``flood`` where
-    it is stopped; ``refused`` whether a message was left out on the way;
-    ``stopped`` is (status, message) once it was interrupted, ``interrupt`` the id
-    of that request and ``interrupted`` whether it was answered.
+    Attributes
+    ----------
+    allowed, flood : int
+        What its outputs may add up to, and where it is stopped, in bytes.
+    refused : bool
+        Whether a message was left out on the way.
+    ended_at, kill_at : float
+        Seconds of the kernel's own.
+    stopped : (status, message)
+        Once it was interrupted.
+    interrupt, interrupted : str, bool
+        The id of that request, and whether it was answered.
     """
 
     allowed: int
@@ -87,41 +107,71 @@ class Progress:
 class SandboxClient(NotebookClient):
     """nbclient's bookkeeping of outputs and displays, with our own way of running a cell.
 
-    A client lives as long as one kernel.  ``used`` is what the outputs of the
-    notebook hold so far, in bytes; the caller carries it over to the next
-    client.
+    A client lives as long as one kernel; the caller carries over to the next one what the notebook has used up.
+
+    Attributes
+    ----------
+    used : int
+        What the outputs of the notebook hold so far, in bytes.
+    spent : Spent
+        Time that its cells have taken so far.
+    lost : bool
+        Whether the kernel is dead or has to be killed.
+    time_up : TimeUp or None
+        The bound on time that was met last.
     """
 
-    def __init__(self, nb: NotebookNode, limits: Limits, options: dict[str, Any], used: int = 0) -> None:
-        specs = SandboxKernelSpecs()
-        specs.provisioner_options = {**options, "limits": limits}
-        super().__init__(nb, km=AsyncKernelManager(kernel_spec_manager=specs, kernel_name="python3"))
+    def __init__(
+        self, nb: NotebookNode, limits: Limits, options: dict[str, Any], used: int = 0, spent: Spent = Spent()
+    ) -> None:
+        self._manager = AsyncKernelManager(
+            kernel_spec_manager=SandboxKernelSpecs({**options, "limits": limits}), kernel_name="python3"
+        )
+        super().__init__(nb, km=self._manager)
         self.limits = limits
         self.used = used
+        self.spent = spent
         self.lost = False
+        self.time_up: TimeUp | None = None
 
     @property
     def provisioner(self) -> SandboxProvisioner:
-        return self.km.provisioner
+        provisioner = self._manager.provisioner
+        assert isinstance(provisioner, SandboxProvisioner)
+        return provisioner
+
+    @property
+    def _kernel(self) -> AsyncKernelClient:
+        assert isinstance(self.kc, AsyncKernelClient)
+        return self.kc
 
     async def start(self) -> None:
-        """Start the kernel and wait until it answers; raises KernelStartError."""
-        await self.km.start_kernel()
-        self.kc = self.km.client()
-        self.kc.context.setsockopt(zmq.MAXMSGSIZE, self.limits.message_bytes)
-        self.kc.context.setsockopt(zmq.RCVHWM, QUEUED_MESSAGES)
-        self.kc.start_channels(stdin=False, hb=False)
-        give_up = time.monotonic() + START_SECONDS
+        """Start the kernel and wait until it answers.
+
+        Raises
+        ------
+        KernelStartError
+            If it ends or does not answer.
+        """
+        await self._manager.start_kernel()
+        self.kc = self._manager.client()
+        context = self._kernel.context
+        assert context is not None
+        context.setsockopt(zmq.MAXMSGSIZE, self.limits.message_bytes)
+        context.setsockopt(zmq.RCVHWM, _QUEUED_MESSAGES)
+        self._kernel.start_channels(stdin=False, hb=False)
         answered = heard = False
         while not (answered and heard):
-            self.kc.kernel_info()
+            self._kernel.kernel_info()
             for channel, _ in await self._receive(1.0):
                 answered |= channel == "shell"
                 heard |= channel == "iopub"
             # The first status messages may come before the subscription does: ask again until one is heard.
             if answered and not heard:
-                heard = any(channel == "iopub" for channel, _ in await self._receive(POLL_SECONDS))
-            if await self.provisioner.poll() is not None or time.monotonic() > give_up:
+                heard = any(channel == "iopub" for channel, _ in await self._receive(_POLL_SECONDS))
+            taken = self.provisioner.watch.spent()
+            too_long = taken.own > START_SECONDS or taken.wall > LOAD_FACTOR * START_SECONDS
+            if await self.provisioner.poll() is not None or too_long:
                 raise KernelStartError(f"the kernel did not start: {self._last_words()}")
 
     def _last_words(self) -> str:
@@ -130,17 +180,18 @@ class SandboxClient(NotebookClient):
 
     def close(self) -> None:
         """Kill the kernel with everything it started and remove its private folder; never fails halfway."""
-        if self.provisioner is not None:
+        if self._manager.provisioner is not None:
             self.provisioner.release()
         if self.kc is not None:
-            self.kc.stop_channels()
-            self.kc.context.destroy(linger=0)
-        self.km._close_control_socket()
-        self.km.context.destroy(linger=0)
+            self._kernel.stop_channels()
+            if self._kernel.context is not None:
+                self._kernel.context.destroy(linger=0)
+        self._manager._close_control_socket()
+        self._manager.context.destroy(linger=0)
 
     async def _receive(self, seconds: float) -> list[tuple[str, Message | None]]:
         """Messages waiting on shell, iopub and control, as (channel, message); None stands for a malformed one."""
-        sockets = {getattr(self.kc, f"{name}_channel").socket: name for name in ("shell", "iopub", "control")}
+        sockets = {getattr(self._kernel, f"{name}_channel").socket: name for name in ("shell", "iopub", "control")}
         poller = zmq.asyncio.Poller()
         for socket in sockets:
             poller.register(socket, zmq.POLLIN)
@@ -148,39 +199,40 @@ class SandboxClient(NotebookClient):
         for socket, _ in await poller.poll(max(0, int(seconds * 1000))):
             frames = await socket.recv_multipart()
             try:
-                message = decode(frames, self.kc.session.key)
+                message = decode(frames, self._kernel.session.key)
             except MalformedMessage:
                 message = None
             received.append((sockets[socket], message))
         return received
 
-    async def run_code(self, source: str, cell: NotebookNode, index: int, deadline: float) -> CellRun:
-        """Run source in the kernel, its outputs going to ``cell``; ``deadline`` is on the monotonic clock.
-
-        ``lost`` is True afterwards when the kernel is dead or has to be killed.
-        """
+    async def run_code(self, source: str, cell: NotebookNode, index: int) -> CellRun:
+        """Run `source` in the kernel, its outputs going to `cell`, which is number `index` of the notebook."""
         cell.outputs = []
         refused_before = self.provisioner.relay.refused
         self.clear_before_next_output = False
-        request = self.kc.execute(source, allow_stdin=False, stop_on_error=False)
-        progress = Progress(allowed=self._allowance(), flood=FLOOD * self.limits.output_bytes)
+        self.time_up = None
+        watch = self.provisioner.watch
+        start = watch.spent_now()
+        request = self._kernel.execute(source, allow_stdin=False, stop_on_error=False)
+        progress = _Progress(allowed=self._allowance(), flood=_FLOOD * self.limits.output_bytes)
         while not self._finished(progress):
-            now = time.monotonic()
-            if progress.stopped is None and now >= deadline:
-                progress.stopped = ("timeout", "stopped: it took too long")
+            taken = watch.spent() - start
+            if progress.stopped is None and (up := time_up(self.limits, taken, self.spent + taken)):
+                self.time_up = up
+                progress.stopped = ("timeout", up.message)
             if progress.stopped is None and progress.flooding:
                 progress.stopped = ("output_limit", self._too_much_output())
-            if progress.stopped is not None and progress.kill_at == float("inf"):
-                progress.kill_at = now + INTERRUPT_SECONDS
+            if progress.stopped is not None and progress.interrupt is None:
+                progress.kill_at = watch.spent().own + _INTERRUPT_SECONDS
                 progress.interrupt = self._interrupt()
-            if now >= progress.kill_at:
+            if watch.spent().own >= progress.kill_at or (self.time_up is not None and self.time_up.starved):
                 self.lost = True
                 break
             if await self.provisioner.poll() is not None:
                 self.lost = True
                 progress.stopped = progress.stopped or self.provisioner.cause_of_death()
                 break
-            for channel, message in await self._receive(min(POLL_SECONDS, max(0.0, deadline - now) or POLL_SECONDS)):
+            for channel, message in await self._receive(_POLL_SECONDS):
                 if message is None:
                     continue
                 if channel == "control":
@@ -190,28 +242,30 @@ class SandboxClient(NotebookClient):
             progress.refused = self.provisioner.relay.refused > refused_before
         if progress.interrupt is not None and not self.lost:
             self.lost = not await self._outlives_interrupt(progress)
+        self.spent += watch.spent_now() - start
         return self._result(progress, cell)
 
     def _interrupt(self) -> str:
         """Ask the kernel to interrupt what it runs; the id of the request."""
-        message = self.kc.session.msg("interrupt_request", {})
-        self.kc.control_channel.send(message)
+        message = self._kernel.session.msg("interrupt_request", {})
+        self._kernel.control_channel.send(message)
         return message["header"]["msg_id"]
 
-    async def _outlives_interrupt(self, progress: Progress) -> bool:
+    async def _outlives_interrupt(self, progress: _Progress) -> bool:
         """Whether the kernel is ready for the next cell, now that the interrupted one has ended.
 
         A cell may end before its interrupt comes, which would then hit the next
         one, or the kernel itself in taking that one in, and it would never be answered.
         """
-        give_up = time.monotonic() + INTERRUPT_SECONDS
+        watch = self.provisioner.watch
+        give_up = watch.spent().own + _INTERRUPT_SECONDS
         probes: set[str] = set()
         ask_again = 0.0
-        while (now := time.monotonic()) < give_up and await self.provisioner.poll() is None:
-            if progress.interrupted and now >= ask_again:
-                probes.add(self.kc.kernel_info())
-                ask_again = now + PROBE_SECONDS
-            for channel, message in await self._receive(POLL_SECONDS):
+        while watch.spent().own < give_up and await self.provisioner.poll() is None:
+            if progress.interrupted and time.monotonic() >= ask_again:
+                probes.add(self._kernel.kernel_info())
+                ask_again = time.monotonic() + _PROBE_SECONDS
+            for channel, message in await self._receive(_POLL_SECONDS):
                 if message is not None and channel == "control":
                     progress.interrupted |= message.parent == progress.interrupt
                 if message is not None and channel == "shell" and message.parent in probes:
@@ -221,34 +275,35 @@ class SandboxClient(NotebookClient):
     def _allowance(self) -> int:
         """What the next cell's outputs may add up to.
 
-        A cell is left a share whatever the cells before it used, so that one
-        that prints too much does not silence the others.
+        A cell is left a share whatever the cells before it used, so that one that prints too much does not silence
+        the others.
         """
         quota = self.limits.output_bytes
-        return max(quota - self.used, quota // SHARE if self.used < SHARES_END * quota else 0)
+        return max(quota - self.used, quota // _SHARE if self.used < _SHARES_END * quota else 0)
 
-    def _finished(self, progress: Progress) -> bool:
+    def _finished(self, progress: _Progress) -> bool:
         """Whether the cell ended: both halves of its end came, or the second does not come any more.
 
-        A message that was too long is left out, and it may have been one of
-        the two.  A kernel of which one half is missing is not used any further.
+        A message that was too long is left out, and it may have been one of the two. A kernel of which one half is
+        missing is not used any further.
         """
         if progress.reply is not None and progress.idle:
             return True
         if progress.reply is None and not (progress.idle and progress.refused):
             progress.ended_at = None
             return False
+        own = self.provisioner.watch.spent().own
         if progress.ended_at is None:
-            progress.ended_at = time.monotonic()
-        self.lost = time.monotonic() > progress.ended_at + SETTLE_SECONDS
+            progress.ended_at = own
+        self.lost = own > progress.ended_at + _SETTLE_SECONDS
         return self.lost
 
-    def _take(self, channel: str, message: Message, progress: Progress, cell: NotebookNode, index: int) -> None:
+    def _take(self, channel: str, message: Message, progress: _Progress, cell: NotebookNode, index: int) -> None:
         if channel == "shell":
             if message.kind == "execute_reply":
                 progress.reply = message.content
             return
-        progress.streamed += message.size + MESSAGE_OVERHEAD
+        progress.streamed += message.size + _MESSAGE_OVERHEAD
         if message.kind == "status":
             progress.idle = progress.idle or message.content.get("execution_state") == "idle"
             return
@@ -279,31 +334,31 @@ class SandboxClient(NotebookClient):
     def _too_much_output(self) -> str:
         return f"stopped: printed far more than {self.limits.output_bytes >> 10} KiB"
 
-    def _result(self, progress: Progress, cell: NotebookNode) -> CellRun:
+    def _result(self, progress: _Progress, cell: NotebookNode) -> CellRun:
         """The cell's run as told by what stopped it, or else by its reply."""
         if progress.flooding:
-            cell.outputs = shortened(cell.outputs, KEPT_BYTES)
-        self.used += min(progress.streamed, KEPT_BYTES if progress.flooding else progress.allowed)
+            cell.outputs = _shortened(cell.outputs, _KEPT_BYTES)
+        self.used += min(progress.streamed, _KEPT_BYTES if progress.flooding else progress.allowed)
         reply = progress.reply or {}
         if progress.stopped is not None:
-            return CellRun(*progress.stopped, cell.outputs)
+            return CellRun(*progress.stopped, cell.outputs, doubtful=progress.stopped[0] in ("timeout", "died"))
         if progress.flooding:
             return CellRun("output_limit", self._too_much_output(), cell.outputs)
-        if asks_to_exit(reply):
+        if _asks_to_exit(reply):
             self.lost = True
             return CellRun("died", "ended the kernel (exit)", cell.outputs)
         if reply.get("status") == "ok":
             return CellRun("ok", "what it printed beyond the limit was left out" if progress.over else "", cell.outputs)
         name, value = as_text(reply.get("ename")), as_text(reply.get("evalue"))
-        message = one_line(f"{name}: {value}" if value else name) or "the cell was not completed"
-        if name not in OUT_OF_MEMORY:
+        message = _one_line(f"{name}: {value}" if value else name) or "the cell was not completed"
+        if name not in _OUT_OF_MEMORY:
             return CellRun("error", message, cell.outputs)
         # A kernel that still holds what it filled its memory with has none left for the cells to come.
-        self.lost = self.provisioner.memory_held() > self.limits.memory // 2
+        self.lost = self.provisioner.watch.memory_now() > self.limits.memory // 2
         return CellRun("memory", message, cell.outputs)
 
 
-def asks_to_exit(reply: dict[str, Any]) -> bool:
+def _asks_to_exit(reply: dict[str, Any]) -> bool:
     """Whether an execute reply carries IPython's request to end the kernel."""
     payload = reply.get("payload")
     return isinstance(payload, list) and any(
@@ -311,13 +366,13 @@ def asks_to_exit(reply: dict[str, Any]) -> bool:
     )
 
 
-def one_line(text: str) -> str:
+def _one_line(text: str) -> str:
     """The text on one line, cut to a readable length."""
     line = " ".join(text.split())
-    return line if len(line) <= MESSAGE_CHARACTERS else line[: MESSAGE_CHARACTERS - 3] + "..."
+    return line if len(line) <= _MESSAGE_CHARACTERS else line[: _MESSAGE_CHARACTERS - 3] + "..."
 
 
-def shortened(outputs: Sequence[NotebookNode], limit: int) -> list[NotebookNode]:
+def _shortened(outputs: Sequence[NotebookNode], limit: int) -> list[NotebookNode]:
     """The first outputs that fit into ``limit`` characters; a stream is cut, anything else left out whole."""
     kept: list[NotebookNode] = []
     for output in outputs:

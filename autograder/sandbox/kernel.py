@@ -1,6 +1,6 @@
 """The kernel's own start-up: ipykernel on sockets that it inherited.
 
-This module is never imported; its text is handed to ``python -c``.  The
+This module is never imported; its text is handed to ``python -c``. The
 "ports" in the kernel's connection file are descriptors of listening sockets
 that the trusted side opened, so no folder with sockets has to be shared with
 the kernel, and no name in the file system is its to replace.
@@ -15,8 +15,8 @@ threading.stack_size(2 << 20)
 # The work folder must not shadow what the kernel itself imports; IPython puts it back.
 sys.path[:] = [entry for entry in sys.path if entry]
 
-import zmq
-from ipykernel.kernelapp import IPKernelApp
+import zmq  # noqa: E402
+from ipykernel.kernelapp import IPKernelApp  # noqa: E402
 
 
 class InheritedSocketsApp(IPKernelApp):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
 from typing import Any
 
 from jupyter_client.kernelspec import KernelSpec, KernelSpecManager
@@ -14,10 +15,16 @@ class SandboxKernelSpecs(KernelSpecManager):
     """Answers every kernel name with the sandboxed Python kernel.
 
     The name in a notebook's metadata is the student's and may be wrong.
-    ``provisioner_options`` are traits of SandboxProvisioner.
+
+    Parameters
+    ----------
+    provisioner_options : mapping, optional
+        Traits of SandboxProvisioner.
     """
 
-    provisioner_options: dict[str, Any] = {}
+    def __init__(self, provisioner_options: Mapping[str, Any] | None = None, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._provisioner_options = dict(provisioner_options or {})
 
     def get_kernel_spec(self, kernel_name: str) -> KernelSpec:
         return KernelSpec(
@@ -26,7 +33,7 @@ class SandboxKernelSpecs(KernelSpecManager):
             language="python",
             interrupt_mode="message",
             metadata={
-                "kernel_provisioner": {"provisioner_name": PROVISIONER, "config": dict(self.provisioner_options)}
+                "kernel_provisioner": {"provisioner_name": PROVISIONER, "config": dict(self._provisioner_options)}
             },
         )
 

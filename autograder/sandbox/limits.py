@@ -27,7 +27,7 @@ class Limits:
     """
 
     memory: int = _limit(1 << 30, "bytes", "memory for one notebook, files in its private folders included")
-    processes: int = _limit(128, "count", "processes and threads of one notebook")
+    processes: int = _limit(48, "count", "processes and threads of one notebook")
     file_size: int = _limit(64 << 20, "bytes", "size a file may grow to")
     open_files: int = _limit(256, "count", "files that one process may hold open")
     disk: int = _limit(64 << 20, "bytes", "size of each private folder: home, /tmp and /dev/shm")

@@ -1,7 +1,7 @@
 """Kernel messages as data: signature, shape, size and depth are checked before anything is believed.
 
 A student's code knows the key of its own kernel, so a signed message may be
-forged as well.  It is only ever data: what has not the shape of a Jupyter
+forged as well. It is only ever data: what has not the shape of a Jupyter
 message is refused, and what has is bounded.
 """
 
@@ -127,7 +127,7 @@ def output_content(message: Message) -> dict[str, Any] | None:
         name = content.get("name")
         return {"name": name if name in ("stdout", "stderr") else "stdout", "text": as_text(content.get("text"))}
     if message.kind in ("display_data", "execute_result", "update_display_data"):
-        bundle = {
+        bundle: dict[str, Any] = {
             "data": mime_bundle(content.get("data")),
             "metadata": as_dict(content.get("metadata")),
             "transient": {"display_id": as_text(as_dict(content.get("transient")).get("display_id"))},

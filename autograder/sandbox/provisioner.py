@@ -7,23 +7,20 @@ Chosen by a kernel spec whose metadata says
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import functools
 import glob
 import importlib.util
 import json
 import os
-import shutil
 import signal
 import subprocess
 import sys
-import tempfile
-import time
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import psutil
 from jupyter_client.connect import KernelConnectionInfo, port_names
+from jupyter_client.manager import KernelManager
 from jupyter_client.provisioning import LocalProvisioner
 from traitlets import Bool, Instance, Unicode
 from traitlets import List as ListOf
@@ -31,39 +28,19 @@ from traitlets import List as ListOf
 from . import bubblewrap
 from .limits import Limits
 from .relay import Relay, listening_sockets
-from .watch import MemoryWatch, memory_in_use
+from .scratch import PrivateFolder
+from .watch import FamilyWatch
 from .workdir import read_folder
 
-BASE_BYTES = 78  # a socket's whole path may have 108, or 104 on macOS
-PREFIX = "ag-"
-NO_HISTORY = "--HistoryManager.hist_file=:memory:"
-XCPU_STATUS = 128 + signal.SIGXCPU
-
-
-def private_folder() -> Path:
-    """A new folder that only this user can enter, with a path short enough for sockets."""
-    base = tempfile.gettempdir() if len(tempfile.gettempdir()) <= BASE_BYTES else "/tmp"
-    remove_orphans(Path(base))
-    return Path(tempfile.mkdtemp(prefix=f"{PREFIX}{os.getpid()}-", dir=base))
-
-
-def remove_orphans(base: Path, older_than: float = 3600.0) -> None:
-    """Remove the private folders of graders that were killed and could not do it themselves."""
-    for folder in base.glob(PREFIX + "*-*"):
-        owner = folder.name.removeprefix(PREFIX).split("-")[0]
-        with contextlib.suppress(OSError):
-            status = folder.lstat()
-            old = time.time() - status.st_mtime > older_than
-            if old and status.st_uid == os.geteuid() and owner.isdigit() and not psutil.pid_exists(int(owner)):
-                shutil.rmtree(folder, ignore_errors=True)
+_NO_HISTORY = "--HistoryManager.hist_file=:memory:"
+_XCPU_STATUS = 128 + signal.SIGXCPU
 
 
 @functools.cache
-def font_list() -> dict[str, bytes]:
+def _font_list() -> dict[str, bytes]:
     """matplotlib's list of fonts, by its place in the sandbox's home.
 
-    Building it takes half a second, so it is done once for this user and not
-    in every new home.
+    Building it takes half a second, so it is done once for this user and not in every new home.
     """
     home = os.path.expanduser("~")
     cache = os.environ.get("XDG_CACHE_HOME") or f"{home}/.cache"
@@ -77,10 +54,10 @@ def font_list() -> dict[str, bytes]:
 
 
 class SandboxProvisioner(LocalProvisioner):
-    """Starts a kernel under bubblewrap, relays its messages, watches its memory, and leaves nothing behind.
+    """Starts a kernel under bubblewrap, relays its messages, watches what it uses, and leaves nothing behind.
 
-    With ``sandboxed`` off the same kernel runs as an ordinary local process:
-    only the bounds on messages hold.
+    With ``sandboxed`` off the same kernel runs as an ordinary local process: only the bounds on time and messages
+    hold.
     """
 
     limits = Instance(Limits, args=())
@@ -88,22 +65,32 @@ class SandboxProvisioner(LocalProvisioner):
     hidden = ListOf(Unicode(), help="folders that the kernel must not see, wherever they are")
     sandboxed = Bool(True)
 
-    folder: Path | None = None
-    relay: Relay | None = None
-    watch: MemoryWatch | None = None
+    relay: Relay  # from the kernel's start on
+    watch: FamilyWatch  # likewise
     memory_exceeded = False
     exit_status: int | None = None
     left_out: tuple[str, ...] = ()
+    _private: PrivateFolder | None = None
+    _console: IO[bytes] | None = None
+
+    @property
+    def folder(self) -> Path:
+        """The private folder of this kernel's sockets; made when it is first asked for."""
+        if self._private is None:
+            self._private = PrivateFolder()
+        return self._private.path
+
+    @property
+    def _manager(self) -> KernelManager:
+        assert isinstance(self.parent, KernelManager)
+        return self.parent
 
     async def pre_launch(self, **kwargs: Any) -> dict[str, Any]:
-        manager = self.parent
-        if self.folder is None:
-            self.folder = private_folder()
-        manager.transport = "ipc"
-        manager.connection_file = str(self.folder / "kernel.json")
-        manager.ip = str(self.folder / "k")
+        self._manager.transport = "ipc"
+        self._manager.connection_file = str(self.folder / "kernel.json")
+        self._manager.ip = str(self.folder / "k")
         for number, name in enumerate(port_names, start=1):
-            setattr(manager, name, number)
+            setattr(self._manager, name, number)
         return await super().pre_launch(**kwargs)
 
     async def launch_kernel(self, cmd: list[str], **kwargs: Any) -> KernelConnectionInfo:
@@ -113,18 +100,24 @@ class SandboxProvisioner(LocalProvisioner):
         back_paths = [self.folder / f"s-{number}" for number, _ in enumerate(port_names, 1)]
         back = listening_sockets(back_paths)
         try:
-            self.process = self._start([door.fileno() for door in back], options, kwargs.get("env"))
+            process = self._start([door.fileno() for door in back], options, kwargs.get("env"))
         finally:
             for door in back:
                 door.close()
-        self.pid = self.process.pid
-        self.pgid = None if self.sandboxed else self.pid
+        assert process.stdout is not None
+        self.process, self.pid, self._console = process, process.pid, process.stdout
+        self.pgid = None if self.sandboxed else process.pid
         self.memory_exceeded = False
-        self.relay = Relay(dict(zip(front, back_paths)), self.process.stdout.fileno(), self.limits.message_bytes)
+        self.relay = Relay(dict(zip(front, back_paths)), process.stdout.fileno(), self.limits.message_bytes)
         self.relay.start()
-        if self.sandboxed:
-            self.watch = MemoryWatch(self.pid, bubblewrap.PRIVATE, self.limits.memory, self._too_much_memory)
-            self.watch.start()
+        self.watch = FamilyWatch(
+            process.pid,
+            outer=2 if self.sandboxed else 0,  # bwrap, and the first process of the sandbox
+            places=bubblewrap.PRIVATE if self.sandboxed else (),
+            limit=self.limits.memory if self.sandboxed else None,
+            exceeded=self._too_much_memory,
+        )
+        self.watch.start()
         return self.connection_info
 
     def _start(self, descriptors: list[int], options: list[str], env: dict[str, str] | None) -> subprocess.Popen[bytes]:
@@ -133,14 +126,13 @@ class SandboxProvisioner(LocalProvisioner):
         connection = self._connection(descriptors)
         source = Path(__file__).with_name("kernel.py").read_text()
         # nbclient passes the first option as well.
-        command = [sys.executable, "-c", source, *dict.fromkeys((NO_HISTORY, *options))]
+        command = [sys.executable, "-c", source, *dict.fromkeys((_NO_HISTORY, *options))]
         if self.sandboxed:
             files = {f"work/{name}": content for name, content in contents.items()}
-            files |= {**font_list(), ".kernel.json": connection}
+            files |= {**_font_list(), ".kernel.json": connection}
             return bubblewrap.start(
                 [*command, "-f", f"{bubblewrap.HOME}/.kernel.json"],
                 limits=self.limits,
-                folder=self.folder,
                 files=files,
                 hidden=[*self.hidden, *filter(None, [self.workdir])],
                 pass_fds=descriptors,
@@ -169,15 +161,11 @@ class SandboxProvisioner(LocalProvisioner):
         info = {
             "transport": "ipc",
             "ip": "kernel",
-            "key": self.parent.session.key.decode(),
-            "signature_scheme": self.parent.session.signature_scheme,
+            "key": self._manager.session.key.decode(),
+            "signature_scheme": self._manager.session.signature_scheme,
             **dict(zip(port_names, descriptors)),
         }
         return json.dumps(info).encode()
-
-    def memory_held(self) -> int:
-        """Bytes that the kernel and everything it started hold now."""
-        return memory_in_use(self.pid, bubblewrap.PRIVATE if self.sandboxed else ())
 
     def _too_much_memory(self) -> None:
         self.memory_exceeded = True
@@ -186,8 +174,8 @@ class SandboxProvisioner(LocalProvisioner):
     def _kill_family(self) -> None:
         """Kill everything that runs in the sandbox.
 
-        The first process of the PID namespace takes all others with it, and
-        bubblewrap, its parent, ends only after they are gone.
+        The first process of the PID namespace takes all others with it, and bubblewrap, its parent, ends only after
+        they are gone.
         """
         process = self.process
         if process is None:
@@ -213,10 +201,7 @@ class SandboxProvisioner(LocalProvisioner):
         """Wait for the kernel and everything it started to be gone."""
         while await self.poll() is None:
             await asyncio.sleep(0.05)
-        self._stop_threads()
-        if self.process is not None:
-            self.process.stdout.close()
-            self.process = None
+        self._let_go()
         return self.exit_status
 
     async def kill(self, restart: bool = False) -> None:
@@ -226,7 +211,8 @@ class SandboxProvisioner(LocalProvisioner):
             if self.process is None or self.process.poll() is not None:
                 return
             await asyncio.sleep(0.05)
-        self.process.kill()
+        if self.process is not None:
+            self.process.kill()
 
     async def terminate(self, restart: bool = False) -> None:
         """Same as kill: a student's kernel is not asked."""
@@ -243,28 +229,29 @@ class SandboxProvisioner(LocalProvisioner):
     def release(self) -> None:
         """End the relay and the watch, kill what is left, remove the private folder."""
         self._kill_family()
-        self._stop_threads()
         if self.process is not None:
             self.process.wait()
-            self.process.stdout.close()
-            self.process = None
-        if self.folder is not None:
-            shutil.rmtree(self.folder, ignore_errors=True)
-            self.folder = None
+        self._let_go()
+        if self._private is not None:
+            self._private.remove()
+            self._private = None
 
-    def _stop_threads(self) -> None:
-        if self.watch is not None:
-            self.watch.stop()
-        if self.relay is not None:
-            self.relay.stop()
+    def _let_go(self) -> None:
+        """End what goes with a kernel that is gone."""
+        for thread in (getattr(self, "watch", None), getattr(self, "relay", None)):
+            if thread is not None:
+                thread.stop()
+        if self._console is not None:
+            self._console.close()
+        self.process = self._console = None
 
     def cause_of_death(self) -> tuple[str, str]:
-        """(status, sentence) for a kernel that ended although nobody asked it to."""
+        """Return (status, sentence) for a kernel that ended although nobody asked it to."""
         if self.memory_exceeded:
             return "memory", f"used more than {self.limits.memory >> 20} MiB of memory and was stopped"
-        if self.exit_status == XCPU_STATUS:
-            return "died", f"used up its {self.limits.notebook_seconds:g} s of processor time"
-        if self.watch is not None and self.watch.held > self.limits.memory * 3 // 4:
+        if self.exit_status == _XCPU_STATUS:
+            return "timeout", f"used up its {self.limits.notebook_seconds:g} s of processor time"
+        if self.watch.held > self.limits.memory * 3 // 4:
             # Where memory is full, libraries below Python end the process instead of raising MemoryError.
             return "memory", f"the kernel ended with {self.watch.held >> 20} MiB of memory in use"
         return "died", "the kernel ended while the cell was running"

@@ -1,9 +1,9 @@
 """The gate between a kernel's sockets and the grader's: whole messages pass, and only bounded ones.
 
-A kernel speaks ZeroMQ (ZMTP 3) over a Unix socket.  Left to itself, ZeroMQ
+A kernel speaks ZeroMQ (ZMTP 3) over a Unix socket. Left to itself, ZeroMQ
 would take in a multi-part message of any length before the grader sees a byte
 of it, and would drop the connection, with whatever else was on its way, at one
-message that is too long.  The relay stands in between, knows nothing of the
+message that is too long. The relay stands in between, knows nothing of the
 protocol but its framing, and leaves out what is too long.
 """
 
@@ -122,12 +122,12 @@ class MessageGate:
 
 @dataclass(eq=False)
 class Side:
-    """One end of a relayed connection; ``outbox`` waits to be sent to it."""
+    """One end of a relayed connection; `outbox` waits to be sent to it, `peer` is the other end."""
 
     sock: socket.socket
     gate: MessageGate | None = None
     outbox: bytearray = field(default_factory=bytearray)
-    peer: Side | None = None
+    peer: Side = field(init=False)
 
     def events(self) -> int:
         """What to wait for: reading stops while the other end does not keep up."""
@@ -139,7 +139,7 @@ class Relay(threading.Thread):
     """Carries the connections of one kernel until ``stop`` is called.
 
     ``doors`` maps each listening socket of the grader's side to the path of
-    the kernel's listening socket.  ``console`` is the read end of the kernel's
+    the kernel's listening socket. ``console`` is the read end of the kernel's
     raw standard output, of which the last bytes are kept in ``tail``.
     """
 
@@ -177,7 +177,7 @@ class Relay(threading.Thread):
                 pass
         finally:
             for key in list(self._selector.get_map().values()):
-                if key.data != "console":
+                if isinstance(key.fileobj, socket.socket):
                     key.fileobj.close()
             self._selector.close()
             self._wake.close()
@@ -188,10 +188,10 @@ class Relay(threading.Thread):
                 return False
             if key.data == "console":
                 self._read_console()
-            elif key.data == "door":
-                self._accept(key.fileobj)
-            else:
+            elif isinstance(key.data, Side):
                 self._carry(key.data, ready)
+            elif isinstance(key.fileobj, socket.socket):
+                self._accept(key.fileobj)
         return True
 
     def _read_console(self) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import concurrent.futures
 import copy
-import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,28 +15,47 @@ from nbformat import NotebookNode
 
 from .bubblewrap import SandboxUnavailable, available
 from .client import CellRun, SandboxClient
+from .clock import Spent
 from .limits import Limits
 
-MAX_RESTARTS = 2
-HARMLESS = ("ok", "error", "memory")
-NAMES_SHOWN = 5
+_MAX_RESTARTS = 2
+_HARMLESS = ("ok", "error", "memory")
+_NAMES_SHOWN = 5
 
-RUNNING: set[asyncio.Task[Run]] = set()
+_RUNNING: set[asyncio.Task[Run]] = set()
 
 Followup = Callable[[int, NotebookNode, list[NotebookNode]], str | None]
 
 
 @dataclass
 class Run:
-    """What happened in a notebook: one CellRun per code cell and the outputs of its follow-up code, by cell index."""
+    """What happened in a notebook.
+
+    Attributes
+    ----------
+    cells : dict of int to CellRun
+        Each code cell, by its index.
+    followups : dict of int to list of NotebookNode
+        Outputs of the code that was run after a cell, by the index of the cell.
+    message : str or None
+        What went wrong with the notebook as a whole.
+    starved : bool
+        Whether the machine let it run so little that nothing can be said about it.
+    """
 
     cells: dict[int, CellRun] = field(default_factory=dict)
     followups: dict[int, list[NotebookNode]] = field(default_factory=dict)
     message: str | None = None
+    starved: bool = False
+
+    @property
+    def doubt(self) -> str | None:
+        """Why it should run once more, with nothing beside it, before it costs anybody a point."""
+        return next((cell.message for cell in self.cells.values() if cell.doubtful), None)
 
 
 @dataclass
-class Session:
+class _Session:
     """One notebook on its way: the kernel it has now and what it may still use."""
 
     nb: NotebookNode
@@ -45,56 +63,54 @@ class Session:
     options: dict[str, Any]
     run: Run = field(default_factory=Run)
     client: SandboxClient | None = None
-    deadline: float = float("inf")
     starts: int = 0
     used: int = 0
+    spent: Spent = field(default_factory=Spent)
     left_out: tuple[str, ...] = ()
     harmful: set[int] = field(default_factory=set)
 
     async def start(self) -> None:
-        self.client = SandboxClient(self.nb, self.limits, self.options, self.used)
+        self.client = SandboxClient(self.nb, self.limits, self.options, self.used, self.spent)
         self.starts += 1
         await self.client.start()
         self.left_out = self.client.provisioner.left_out
-        self.deadline = min(self.deadline, time.monotonic() + self.limits.notebook_seconds)
 
     def stop(self) -> None:
         if self.client is not None:
-            self.used = self.client.used
+            self.used, self.spent = self.client.used, self.client.spent
             self.client.close()
             self.client = None
+
+    @property
+    def kernel(self) -> SandboxClient:
+        """The client of the kernel that runs."""
+        assert self.client is not None
+        return self.client
 
     async def execute(self, source: str) -> CellRun:
         """Run code in the present kernel, with its outputs in a cell of its own at the notebook's end."""
         cell = nbformat.v4.new_code_cell(source)
         self.nb.cells.append(cell)
-        by_notebook = self.deadline < time.monotonic() + self.limits.cell_seconds
-        deadline = min(self.deadline, time.monotonic() + self.limits.cell_seconds)
-        result = await self.client.run_code(source, cell, len(self.nb.cells) - 1, deadline)
-        if result.status == "timeout" and by_notebook:
-            result.message = f"stopped: the notebook's {self.limits.notebook_seconds:g} s were used up"
-            self.run.message = self.out_of_time()
-        elif result.status == "timeout":
-            result.message = f"stopped after {self.limits.cell_seconds:g} s"
+        result = await self.kernel.run_code(source, cell, len(self.nb.cells) - 1)
+        if (up := self.kernel.time_up) is not None:
+            self.run.message = self.run.message or up.of_notebook
+            self.run.starved |= up.starved
         return result
 
-    def out_of_time(self) -> str:
-        return f"notebook stopped after {self.limits.notebook_seconds:g} s"
-
     def did_harm(self, result: CellRun) -> bool:
-        return self.client.lost or result.status not in HARMLESS
+        return self.kernel.lost or result.status not in _HARMLESS
 
     async def replay(self) -> None:
         """Bring a fresh kernel to the state after the cells run so far, without those that did harm."""
         for earlier in sorted(self.run.cells.keys() - self.harmful):
             if self.did_harm(await self.execute(self.nb.cells[earlier].source)):
                 self.harmful.add(earlier)
-            self.client.used = self.used
-            if self.client.lost or self.run.message is not None:
+            self.kernel.used = self.used
+            if self.kernel.lost or self.run.message is not None:
                 return
 
 
-async def run_cells(session: Session, followup: Followup | None) -> None:
+async def _run_cells(session: _Session, followup: Followup | None) -> None:
     """Run every code cell of the session's notebook, in a new kernel where the old one was lost."""
     code_cells = [index for index, cell in enumerate(session.nb.cells) if cell.cell_type == "code"]
     run = session.run
@@ -105,13 +121,11 @@ async def run_cells(session: Session, followup: Followup | None) -> None:
             continue
         while run.message is None and (session.client is None or session.client.lost):
             session.stop()
-            if session.starts > MAX_RESTARTS:
+            if session.starts > _MAX_RESTARTS:
                 run.message = f"the kernel was lost {session.starts} times, the rest of the notebook was not run"
                 break
             await session.start()
             await session.replay()
-        if run.message is None and time.monotonic() >= session.deadline:
-            run.message = session.out_of_time()
         if run.message is not None:
             run.cells[index] = CellRun("not_run", run.message)
             continue
@@ -119,24 +133,25 @@ async def run_cells(session: Session, followup: Followup | None) -> None:
         if session.did_harm(result):
             session.harmful.add(index)
         code = followup(index, session.nb.cells[index], result.outputs) if followup is not None else None
-        if code is not None and not session.client.lost:
+        if code is not None and not session.kernel.lost:
             probed = await session.execute(code)
             run.followups[index] = probed.outputs
             if probed.status != "ok" and result.status == "ok":
-                result.status = probed.status
+                result.status, result.doubtful = probed.status, probed.doubtful
                 result.message = f"{probed.message} (with the grader's inputs)"
 
 
-async def run_session(session: Session, followup: Followup | None) -> Run:
+async def _run_session(session: _Session, followup: Followup | None) -> Run:
     task = asyncio.current_task()
-    RUNNING.add(task)
+    assert task is not None
+    _RUNNING.add(task)
     try:
-        await run_cells(session, followup)
+        await _run_cells(session, followup)
     finally:
         session.stop()
-        RUNNING.discard(task)
+        _RUNNING.discard(task)
     if session.left_out and session.run.message is None:
-        names = ", ".join(session.left_out[:NAMES_SHOWN])
+        names = ", ".join(session.left_out[:_NAMES_SHOWN])
         session.run.message = f"{len(session.left_out)} files too large for the work folder were left out: {names}"
     return session.run
 
@@ -152,19 +167,29 @@ def run_notebook(
 ) -> Run:
     """Run a notebook in a sandbox and return what came of each code cell; the notebook itself is not changed.
 
-    ``workdir`` holds the notebook's own files; they are copied into the
-    kernel's private work folder.  ``followup(index, cell, outputs)`` is called
-    here, in the trusted process, after each cell; code that it returns is run
-    in the same kernel under the same limits, its outputs are kept apart, and
-    trouble in it becomes the status of its cell.  ``hidden`` names further
-    folders that a kernel must not see.  Works from any thread, also from
-    several at a time.
+    Works from any thread, also from several at a time.
 
-    mode="none" runs an ordinary local kernel: the bounds on time and output
-    hold, nothing else does.
+    Parameters
+    ----------
+    nb : NotebookNode
+    workdir : Path
+        The notebook's own files; they are copied into the kernel's private work folder.
+    limits : Limits
+    mode : str
+        "none" runs an ordinary local kernel: the bounds on time and output hold, nothing else does.
+    followup : callable, optional
+        ``followup(index, cell, outputs)`` is called here, in the trusted process, after each cell. Code that it
+        returns is run in the same kernel under the same limits; its outputs are kept apart, and trouble in it becomes
+        the status of its cell.
+    hidden : tuple of Path
+        Further folders that a kernel must not see.
 
-    Raises SandboxUnavailable when there is no sandbox to be had, and
-    KernelStartError when a kernel does not start in it.
+    Raises
+    ------
+    SandboxUnavailable
+        If there is no sandbox to be had.
+    KernelStartError
+        If a kernel does not start in it.
     """
     if mode not in ("bwrap", "none"):
         raise ValueError(f"unknown mode {mode!r}: 'bwrap' or 'none'")
@@ -176,14 +201,14 @@ def run_notebook(
         "sandboxed": mode == "bwrap",
         "hidden": [str(folder) for folder in hidden],
     }
-    session = Session(copy.deepcopy(nb), limits, options)
-    if not loop_is_running():
-        return asyncio.run(run_session(session, followup))
+    session = _Session(copy.deepcopy(nb), limits, options)
+    if not _loop_is_running():
+        return asyncio.run(_run_session(session, followup))
     with concurrent.futures.ThreadPoolExecutor(1) as thread:
-        return thread.submit(asyncio.run, run_session(session, followup)).result()
+        return thread.submit(asyncio.run, _run_session(session, followup)).result()
 
 
-def loop_is_running() -> bool:
+def _loop_is_running() -> bool:
     """Whether this thread is inside an event loop already, as in formgrader's server."""
     try:
         asyncio.get_running_loop()
@@ -198,5 +223,5 @@ def cancel_runs() -> None:
     For the main thread's ``except KeyboardInterrupt``, because an interrupt
     reaches no other thread.
     """
-    for task in tuple(RUNNING):
+    for task in tuple(_RUNNING):
         task.get_loop().call_soon_threadsafe(task.cancel)

@@ -270,6 +270,24 @@ def test_each_sandbox_of_root_has_a_user_of_its_own(needs_sandbox):
     assert len(drawn) > 45 and min(drawn) > 0
 
 
+def test_what_is_handed_over_cannot_be_changed_and_is_closed_in_the_first_process(sandboxed, printed):
+    with bubblewrap._handed_over(b"plan") as descriptor:
+        assert descriptor > 2 and os.read(descriptor, 10) == b"plan"
+        with pytest.raises(PermissionError):
+            os.pwrite(descriptor, b"x", 0)
+        with pytest.raises(PermissionError):
+            os.truncate(descriptor, 0)
+    source = """
+import os
+try:  # open to the sandboxes of an ordinary user
+    links = [os.readlink(f"/proc/1/fd/{name}") for name in os.listdir("/proc/1/fd")]
+except PermissionError:
+    links = []
+print([link for link in links if not link.startswith(("/dev/null", "pipe:", "anon_inode:"))])
+"""
+    assert printed(sandboxed(source), 0) == "[]"
+
+
 @pytest.mark.parametrize("machine", sorted(seccomp.CLOSED))
 def test_every_jump_of_the_filter_lands_inside_it(machine):
     program = seccomp.program(machine)
@@ -348,6 +366,7 @@ def test_a_machine_without_a_filter_is_refused_in_words(monkeypatch):
         ("bwrap: No permissions to create new namespace, likely because the kernel does not", "sysctl"),
         ("bwrap: setting up uid map: Permission denied", "sysctl"),
         ("bwrap: Unknown option --size", "too old"),
+        ("bwrap: Can't find source path /x/bin/python: Permission denied", "chmod"),
         ("Traceback\nPermissionError: [Errno 13] Permission denied: '/x/bin/python'", "chmod"),
         ("", "no message"),
     ],

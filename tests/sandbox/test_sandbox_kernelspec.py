@@ -53,7 +53,7 @@ def test_a_stock_manager_interrupts_restarts_and_shuts_down(needs_sandbox):
         reply = next(reply for reply in replies if reply["parent_header"]["msg_id"] == request)
         assert reply["content"]["ename"] == "KeyboardInterrupt"
         client.stop_channels()
-        first = manager.provisioner.pid
+        first, folder = manager.provisioner.pid, manager.provisioner.folder
         manager.restart_kernel(now=True)
         client = manager.client()
         client.start_channels()
@@ -63,4 +63,4 @@ def test_a_stock_manager_interrupts_restarts_and_shuts_down(needs_sandbox):
     finally:
         client.stop_channels()
         manager.shutdown_kernel(now=True)
-    assert manager.provisioner.folder is None and not manager.is_alive()
+    assert not folder.exists() and not manager.is_alive()

@@ -93,7 +93,7 @@ def test_memory_of_a_family_is_summed_with_shared_pages_once():
         own = watch.resident_bytes(os.getpid())
         separate = sum(watch.resident_bytes(member.pid) for member in watch.family(os.getpid()))
         buffers = sum(watch.buffered_bytes(member) for member in watch.family(os.getpid()))
-        together = watch.memory_in_use(os.getpid(), above=0) - buffers
+        together = watch.memory_in_use(watch.family(os.getpid())) - buffers
     finally:
         for pid in pids:
             os.kill(pid, 9)

@@ -4,9 +4,11 @@ import asyncio
 import concurrent.futures
 import copy
 import os
+import pathlib
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from functools import partial
 
@@ -14,7 +16,7 @@ import nbformat
 import pytest
 
 from autograder import sandbox
-from autograder.sandbox import client, provisioner
+from autograder.sandbox import client, provisioner, scratch
 
 SHORT = sandbox.Limits(cell_seconds=1.5, notebook_seconds=60)
 
@@ -75,7 +77,7 @@ send = kernel._send_interrupt_children
 kernel._send_interrupt_children = lambda: (time.sleep(1), send())
 time.sleep(2.5)
 """
-    run = sandboxed("x = 3", late, "time.sleep(1); print(x)", limits=sandbox.Limits(cell_seconds=2))
+    run = sandboxed("x = 3", late, "time.sleep(1); print(x)", limits=sandbox.Limits(cell_seconds=1))
     assert statuses(run) == ["ok", "timeout", "ok"]
     assert printed(run, 2) == "3"
 
@@ -118,7 +120,7 @@ def test_after_two_restarts_the_rest_is_not_run(sandboxed, statuses):
 
 def test_the_notebook_has_a_time_of_its_own(either, statuses):
     nap = "import time; time.sleep(0.9)"
-    run = either(nap, nap, nap, nap, nap, limits=sandbox.Limits(cell_seconds=30, notebook_seconds=2.2))
+    run = either(nap, nap, nap, nap, nap, limits=sandbox.Limits(cell_seconds=30, notebook_seconds=1.1))
     assert statuses(run) == ["ok", "ok", "timeout", "not_run", "not_run"]
     assert "2.2 s" in run.message and "2.2 s" in run.cells[2].message
 
@@ -257,8 +259,14 @@ sandbox.run_notebook(nbformat.v4.new_notebook(cells=[cell]), workdir=pathlib.Pat
 
 def test_nothing_is_left_open_or_lying_about(sandboxed, tmp_path, monkeypatch):
     folders = []
-    original = provisioner.private_folder
-    monkeypatch.setattr(provisioner, "private_folder", lambda: folders.append(original()) or folders[-1])
+    original = provisioner.PrivateFolder
+
+    def watched():
+        private = original()
+        folders.append(private.path)
+        return private
+
+    monkeypatch.setattr(provisioner, "PrivateFolder", watched)
     sandboxed("1")
     before = len(os.listdir("/proc/self/fd"))
     for _ in range(3):
@@ -268,20 +276,31 @@ def test_nothing_is_left_open_or_lying_about(sandboxed, tmp_path, monkeypatch):
     assert len(os.listdir("/proc/self/fd")) <= before
 
 
-def test_folders_of_killed_graders_are_removed(tmp_path):
-    gone = subprocess.Popen(["true"])
-    gone.wait()
-    orphan, fresh, own, other = (
-        tmp_path / f"{provisioner.PREFIX}{name}"
-        for name in (f"{gone.pid}-a", f"{gone.pid}-b", f"{os.getpid()}-c", "x-d")
-    )
-    for folder in (orphan, fresh, own, other):
-        folder.mkdir()
-        (folder / "kernel.json").touch()
-    for folder in (orphan, own, other):
-        os.utime(folder, (0, 0))
-    provisioner.remove_orphans(tmp_path)
-    assert sorted(tmp_path.iterdir()) == sorted([fresh, own, other])
+def test_folders_of_killed_graders_are_removed_at_the_next_start(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    source = "from autograder.sandbox.scratch import PrivateFolder; import sys; print(PrivateFolder().path); sys.stdin.read()"
+    graders = [
+        subprocess.Popen(
+            [sys.executable, "-c", source],
+            env={**os.environ, "TMPDIR": str(tmp_path)},
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        for _ in range(2)
+    ]
+    left, kept = (pathlib.Path(grader.stdout.readline().strip()) for grader in graders)
+    (left / "work").mkdir()
+    (left / "work/answer.txt").touch()
+    foreign = tmp_path / "ag-notes"
+    foreign.mkdir()
+    graders[0].kill()
+    graders[0].wait()
+    with scratch.PrivateFolder() as own:
+        assert not left.exists() and kept.exists() and own.exists() and foreign.exists()
+    graders[1].communicate("")
+    scratch.sweep(tmp_path)
+    assert list(tmp_path.iterdir()) == [foreign]
 
 
 def test_without_a_sandbox_it_refuses(monkeypatch, tmp_path):
