@@ -11,6 +11,8 @@ from importlib import metadata
 from importlib.util import find_spec
 from pathlib import Path
 
+from packaging.requirements import Requirement
+
 PYTHON = (3, 11)
 SETUP = "run: make setup"
 
@@ -58,12 +60,15 @@ def _packages(root: Path) -> Iterator[Finding]:
 
 
 def _pins(path: Path) -> Iterator[tuple[str, str]]:
-    """Names and versions of a requirements file and of the files it names."""
+    """Names and versions of a requirements file and of the files it names, as far as they are for this Python."""
     for line in path.read_text(encoding="utf-8").splitlines() if path.is_file() else ():
-        if found := re.match(r"-r\s+(\S+)", line):
+        text = line.partition("#")[0].strip()
+        if found := re.match(r"-r\s+(\S+)", text):
             yield from _pins(path.parent / found[1])
-        elif found := re.match(r"([A-Za-z0-9_.-]+)==(\S+)", line):
-            yield found[1], found[2]
+        elif "==" in text:
+            pin = Requirement(text)
+            if pin.marker is None or pin.marker.evaluate():
+                yield pin.name, str(pin.specifier).removeprefix("==")
 
 
 def _alembic() -> Finding:

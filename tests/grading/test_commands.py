@@ -275,13 +275,15 @@ def test_doctor_finds_everything_here(small, capsys):
 
 
 def test_doctor_says_what_is_missing(tmp_path, capsys, monkeypatch):
-    (tmp_path / "requirements.txt").write_text("nbgrader==0.1\nno-such-package==1.0  # why\n")
+    (tmp_path / "requirements.txt").write_text(
+        "nbgrader==0.1\nno-such-package==1.0  # why\nfor-older==2.0 ; python_version < '3.0'\n"
+    )
     (tmp_path / "gradebook.db").write_text("not a database")
     monkeypatch.setattr("autograder.sandbox.available", lambda: "bubblewrap is missing")
     monkeypatch.setattr(doctor.sys, "executable", str(tmp_path / "python"))
     assert run(tmp_path, "doctor") == 1
     out = capsys.readouterr().out
-    assert "nbgrader 0.9.6, pinned 0.1; no-such-package missing, pinned 1.0" in out
+    assert "nbgrader 0.9.6, pinned 0.1; no-such-package missing, pinned 1.0\n" in out
     assert "missing  sandbox: bubblewrap is missing" in out
     assert "missing  alembic" in out and "missing  gradebook" in out and "run: make setup" in out
 
