@@ -1,0 +1,191 @@
+"""A machine that plays the newcomer: it types what CONTRIBUTING.md says into a copy of the repository, and runs what it says.
+
+Cells are written as JupyterLab with nbgrader's *Create Assignment* writes them. What a recipe does not say is not done.
+"""
+
+import json
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import uuid
+from dataclasses import dataclass
+from pathlib import Path
+
+import nbformat
+import pytest
+from expected import Submission, submissions
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
+from write import hand_in
+
+ROOT = Path(__file__).parents[1]
+MANUAL = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+FOLDERS = ("autograder", "course", "docs", "exercises", "solutions", "tests")
+QUESTION, EXERCISE = "Adding a question", "Adding an exercise"
+PYTHON_3 = {"kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}}
+
+
+@dataclass(frozen=True)
+class Block:
+    """A block of code in the manual, and the words above it, which say where it goes."""
+
+    said: str
+    language: str
+    text: str
+
+
+def recipe(title: str) -> list[Block]:
+    """The blocks of a section of the manual."""
+    parts = re.split(r"^```(\w*)\n(.*?)^```\n", MANUAL, flags=re.M | re.S)
+    section, blocks = "", []
+    for said, language, text in zip(parts[::3], parts[1::3], parts[2::3]):
+        _, heading, after = said.rpartition("\n## ")
+        section = after.partition("\n")[0] if heading else section
+        if section == title:
+            blocks.append(Block(after, language, text))
+    assert blocks, f"the manual has no section {title!r}"
+    return blocks
+
+
+def named(words: str, said: str) -> str | None:
+    """What stands in backticks behind these words, None if they are not said."""
+    found = re.search(rf"{words} `([^`]+)`", " ".join(said.split()))
+    return found and found[1]
+
+
+def cell(block: Block) -> nbformat.NotebookNode:
+    """The cell as JupyterLab saves it."""
+    if block.language == "markdown":
+        made = new_markdown_cell(block.text.strip())
+    else:
+        made = new_code_cell(block.text.strip(), metadata=marks(" ".join(block.said.split())))
+    made["id"] = str(uuid.uuid4())
+    return made
+
+
+def marks(said: str) -> dict:
+    """The metadata of a code cell, as the side bar of *Create Assignment* writes it."""
+    answer, tests = "*Autograded answer*" in said, "*Autograded tests*" in said
+    if not (answer or tests):
+        return {}
+    made = {
+        "grade": tests,
+        "grade_id": named("ID", said),
+        "locked": tests,
+        "schema_version": 3,
+        "solution": answer,
+        "task": False,
+    }
+    points = {"points": float(re.search(r"(\d+) points?\b", said)[1])} if tests else {}
+    return {"nbgrader": made | points}
+
+
+class Newcomer:
+    """Somebody with a copy of the repository, who does what the manual says and nothing else."""
+
+    def __init__(self, root: Path) -> None:
+        self.root = root
+        for folder in FOLDERS:
+            shutil.copytree(
+                ROOT / folder, root / folder, ignore=shutil.ignore_patterns("__pycache__", ".ipynb_checkpoints")
+            )
+        for file in ROOT.iterdir():
+            if file.is_file() and not file.name.startswith(".") and file.suffix in (".md", ".toml", ".py", ".txt", ""):
+                shutil.copy(file, root)
+        self.typed: dict[str, int] = {}  # file -> lines typed into it
+        self.notebook = ""
+
+    def follow(self, blocks: list[Block]) -> None:
+        for block in blocks:
+            if block.language == "console":
+                for line in block.text.splitlines():
+                    self.run(*shlex.split(line))
+            else:
+                place = self.type(block)
+                self.typed[place] = self.typed.get(place, 0) + len(block.text.splitlines())
+
+    def type(self, block: Block) -> str:
+        """Type a block where the words above it say; returns the file."""
+        said = block.said
+        if place := named("new file", said):
+            assert not (self.root / place).exists(), f"{place} is not new"
+            (self.root / place).parent.mkdir(parents=True, exist_ok=True)
+            (self.root / place).write_text(block.text, encoding="utf-8")
+        elif place := named("as the last of `QUESTIONS` in", said):
+            text = (self.root / place).read_text(encoding="utf-8")
+            assert text.endswith("\n)\n"), f"{place} does not end with QUESTIONS"
+            (self.root / place).write_text(f"{text[:-2]}{block.text})\n", encoding="utf-8")
+        elif place := named("at the end of", said):
+            with (self.root / place).open("a", encoding="utf-8") as file:
+                file.write(f"\n{block.text}")
+        else:
+            place = self.type_cell(block)
+        return place
+
+    def type_cell(self, block: Block) -> str:
+        if new := named(r"new notebook\W*", block.said):
+            self.notebook = new
+            (self.root / new).parent.mkdir(parents=True)
+            nbformat.write(new_notebook(metadata=PYTHON_3), self.root / new)
+        self.notebook = named("end of the notebook", block.said) or self.notebook
+        nb = nbformat.read(self.root / self.notebook, as_version=4)
+        nb.cells.append(cell(block))
+        nbformat.write(nb, self.root / self.notebook)
+        return self.notebook
+
+    def run(self, program: str, *words: str) -> str:
+        """Run a command in the copy; what it printed."""
+        here = {"PYTHONPATH": os.pathsep.join((str(self.root), str(self.root / "course")))}
+        command = [sys.executable, "-m", {"autograder": "autograder.cli"}.get(program, program), *words]
+        done = subprocess.run(command, cwd=self.root, env=os.environ | here, capture_output=True, text=True)
+        assert done.returncode == 0, f"{program} {' '.join(words)}:\n{done.stdout[-5000:]}\n{done.stderr[-3000:]}"
+        return done.stdout
+
+    def grade(self, *students: Submission) -> dict[str, dict[str, str]]:
+        """Hand in what these students do, and grade it; student -> question -> note."""
+        for one in students:
+            source = json.loads(
+                (self.root / f"solutions/{one.exercise}/{one.exercise}.ipynb").read_text(encoding="utf-8")
+            )
+            place = self.root / "submitted" / one.student / one.exercise
+            place.mkdir(parents=True)
+            for name, content in hand_in(one, source).items():
+                (place / name).write_bytes(content)
+        printed = self.run("autograder", "grade", "--sandbox", "none", "--json")
+        lines = [json.loads(line) for line in printed.splitlines()]
+        return {line["student"]: {answer["question"]: answer["note"] for answer in line["answers"]} for line in lines}
+
+
+@pytest.fixture
+def newcomer(tmp_path):
+    return Newcomer(tmp_path / "repository")
+
+
+@pytest.mark.slow
+def test_a_question(newcomer):
+    blocks = recipe(QUESTION)
+    newcomer.follow(blocks)
+    assert len(newcomer.typed) <= 3 and sum(newcomer.typed.values()) <= 30
+    some = [
+        one
+        for one in submissions()
+        if (one.exercise, one.student) in (("planar_2r", "begun"), ("planar_2r", "mistakes-lengths"))
+    ]
+    notes = newcomer.grade(
+        *some, Submission("planar_2r", "wrong", "", answers={"elbow": "elbow = [L1 * sin(t1), L1 * cos(t1)]"})
+    )
+    for one in some:
+        assert notes[one.student] == {id: one.expected(id.partition(".")[2])[0] for id in notes[one.student]}
+    assert [notes[name]["planar_2r.elbow"] for name in ("begun", "mistakes-lengths", "wrong")] == [
+        "not_attempted",
+        "right",
+        "x_and_y_exchanged",
+    ]
+
+
+@pytest.mark.slow
+def test_an_exercise(newcomer):
+    newcomer.follow(recipe(EXERCISE))
+    assert newcomer.grade(Submission("velocities", "ada", "")) == {"ada": {"velocities.jacobian": "right"}}
