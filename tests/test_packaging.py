@@ -1,4 +1,4 @@
-"""Both packages declare what they import; what is pinned lies within the declared ranges; licences go with each."""
+"""Both packages declare what they import; versions agree wherever they are told; licences go with each package."""
 
 import ast
 import re
@@ -24,8 +24,12 @@ def declared(file):
 
 def pinned():
     """Name -> version of the pins in both requirements files."""
-    text = (ROOT / "requirements.txt").read_text() + (ROOT / "course/requirements.txt").read_text()
-    return {canonicalize_name(name): version for name, version in re.findall(r"^([\w.-]+)==([^\s;]+)", text, re.M)}
+    return versions("requirements.txt") | versions("course/requirements.txt")
+
+
+def versions(file):
+    found = re.findall(r"^([\w.-]+)==([^\s;]+)", (ROOT / file).read_text(), re.M)
+    return {canonicalize_name(name): version for name, version in found}
 
 
 def imported(folder):
@@ -52,6 +56,16 @@ def test_pins_lie_within_the_declared_ranges(file):
     for name, requirement in declared(file).items():
         version = pins.get(name) or metadata.version(name)
         assert requirement.specifier.contains(version), f"{requirement}, but {version} is what is tested"
+
+
+def test_the_lock_holds_the_pins():
+    locked = versions("constraints.txt")
+    assert {name: locked.get(name) for name in pinned()} == pinned(), "run: make lock"
+
+
+def test_pre_commit_lints_with_the_version_of_the_environment():
+    revisions = re.findall(r"ruff-pre-commit\s+rev: v(\S+)", (ROOT / ".pre-commit-config.yaml").read_text())
+    assert revisions == [pinned()["ruff"]]
 
 
 def test_students_get_a_licence_with_the_kit():

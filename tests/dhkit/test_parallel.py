@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 from sympy import cos, sin, symbols
 
-from autograder.reference.parallel import ThreeRPR, ThreeRRR
 from dhkit.drawing import parallel
 from dhkit.pictures import parallel_robots as pictures
+
+solver = pytest.importorskip("autograder.reference.parallel", reason="only the students' kit is installed")
+ThreeRPR, ThreeRRR = solver.ThreeRPR, solver.ThreeRRR
 
 BASE = np.array([(0, 0), (1.0, 0), (0.3, 0.6)])
 PLATFORM = np.array([(-0.2, -0.2), (0.2, -0.2), (0.1, 0.3)])

@@ -1,6 +1,7 @@
 """Numbers of one's own: the same on every machine, different from student to student, never outside their range."""
 
 import importlib
+import os
 import subprocess
 import sys
 
@@ -29,7 +30,11 @@ def test_a_fresh_process_with_another_hash_seed_finds_the_same():
     code = "from dhkit import variants; variants.variant_ranges = lambda _: {'a': (0.0, 1000.0, 1.0)}; print(variants.numbers('arm', 'ada'))"
     found = {
         subprocess.run(
-            [sys.executable, "-c", code], env={"PYTHONHASHSEED": seed}, capture_output=True, text=True, check=True
+            [sys.executable, "-c", code],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            capture_output=True,
+            text=True,
+            check=True,
         ).stdout
         for seed in "17"
     }
