@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from .chain import transforms
+from dhkit.geometry import modified_dh
 
 
 def product_of_table(rows: np.ndarray) -> np.ndarray:
     """The transform of a whole DHm table: rows (N, n, 5) -> (N, 4, 4)."""
     result = np.eye(4)
     for row in np.moveaxis(rows, 1, 0):
-        result = result @ transforms(*row.T[1:])
+        result = result @ modified_dh(*row.T[1:])
     return result
 
 

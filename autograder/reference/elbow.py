@@ -14,10 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from dhkit.geometry import phasor, two_link
+
 from .inverse import Answer, InverseModel, JointMap, outside_limits, translations
-from .solutions import BEYOND, INSIDE, LIMITED, NOTHING, OFF, SHORT
-from .tables import DHTable
-from .two_link import (
+from .marks import (
     FOLDED,
     FOLDED_LINE,
     FREE_FIRST,
@@ -25,11 +25,11 @@ from .two_link import (
     FREE_PLANE,
     SIDEWAYS,
     STRETCHED,
-    Shoulder,
-    shoulder,
-    two_link,
-    unit,
+    two_link_marks,
 )
+from .shoulder import Shoulder, shoulder
+from .solutions import BEYOND, INSIDE, LIMITED, NOTHING, OFF, SHORT
+from .tables import DHTable
 
 _ALIGNED = 1e-9  # sine of the angle between axes 4 and 6 under which they count as aligned
 
@@ -109,22 +109,23 @@ class ArmGeometry:
         outside = np.maximum(arm.beyond, arm.short)
         nearer = outside.argmin(axis=0)
         columns = np.arange(tip.shape[-1])
-        valid = arm.valid & branches.valid[:, None]
+        first, bend, first_turn, bend_turn, reached = (by_elbow.swapaxes(0, 1) for by_elbow in arm[:5])
+        valid = reached & branches.valid[:, None]
         miss, cause = outside[nearer, columns], np.where(arm.beyond > arm.short, BEYOND, SHORT)[nearer, columns]
         inside = ~branches.valid[0]
         miss = np.where(inside, branches.inside, miss)
         cause = np.where(inside, INSIDE, cause)
-        reached = valid.any(axis=(0, 1))
+        solved = valid.any(axis=(0, 1))
         return Postures(
             first=np.angle(branches.turn),
-            second=arm.first - upper_phase,
-            third=arm.bend + (upper_phase - fore_phase),
+            second=first - upper_phase,
+            third=bend + (upper_phase - fore_phase),
             first_turn=branches.turn,
-            fore_turn=arm.first_turn * arm.bend_turn * unit(-fore_phase),
+            fore_turn=first_turn * bend_turn * phasor(-fore_phase),
             valid=valid,
-            marks=np.broadcast_to((arm.marks | branches.marks)[:, None], valid.shape),
-            miss=np.where(reached, 0.0, miss),
-            cause=np.where(reached, NOTHING, cause),
+            marks=np.broadcast_to((two_link_marks(arm) | branches.marks)[:, None], valid.shape),
+            miss=np.where(solved, 0.0, miss),
+            cause=np.where(solved, NOTHING, cause),
         )
 
     def label(self, branch: int, marks: int) -> str:

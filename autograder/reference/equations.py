@@ -31,7 +31,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .two_link import two_link, wrap
+from dhkit.geometry import two_link, wrap
 
 SOLVED = "solved"
 DOUBLE = "boundary: the two solutions merge"

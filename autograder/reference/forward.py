@@ -13,6 +13,8 @@ from functools import cached_property
 import numpy as np
 import sympy as sp
 
+from dhkit.geometry import modified_dh_of_cosines
+
 from .elementary import rot_x, trans_x
 
 _BLOCK = 4096  # poses treated at a time, so that the intermediate arrays stay in the cache
@@ -86,16 +88,8 @@ class Chain:
         slide, turn = self.fixed[row], variable
         if self.prismatic[row]:
             slide, turn = turn, slide
-        c, s = np.cos(turn), np.sin(turn)
-        ca, sa = self.cos_alpha[row], self.sin_alpha[row]
-        return np.array(
-            [
-                [c, -s, 0.0, self.a[row]],
-                [s * ca, c * ca, -sa, -slide * sa],
-                [s * sa, c * sa, ca, slide * ca],
-                [0.0, 0.0, 0.0, 1.0],
-            ]
-        )
+        twist = self.cos_alpha[row], self.sin_alpha[row]
+        return modified_dh_of_cosines(self.a[row], *twist, slide, np.cos(turn), np.sin(turn))
 
     def tail(self, row: int) -> np.ndarray:
         """What follows a row (counted from 0) up to the tool, 4x4, for constant rows."""

@@ -12,10 +12,12 @@ from itertools import product
 
 import numpy as np
 
+from dhkit.geometry import wrap
+
 from .forward import Chain
+from .marks import FOLDED_LINE, FREE_LINE
 from .solutions import LIMITED, UNREACHABLE, Batch, Nearest, Solutions
 from .tables import DHTable
-from .two_link import FOLDED_LINE, FREE_LINE, wrap
 
 TOLERANCE = 1e-9  # metres (radians) by which a pose may miss the workspace and count as on it
 _RIGID = 1e-5  # how far a transform may be from rigid: poses rounded to six decimals pass

@@ -18,7 +18,7 @@ from itertools import product
 
 import numpy as np
 
-from .two_link import wrap
+from dhkit.geometry import rotation, wrap
 
 EULER_SETS = tuple("".join(s) for s in product("xyz", repeat=3) if s[0] != s[1] != s[2])
 """The twelve sequences without two equal neighbours."""
@@ -36,39 +36,6 @@ ONLY_DIFFERENCE = "only first - third"
 AXIS_DEFINED = "two solutions: (axis, angle) and (-axis, -angle)"
 AXIS_FREE = "angle 0: every axis"
 HALF_TURN = "half turn: both senses of the axis with the same angle"
-
-
-def rotation(axis, angle):
-    """Rotation about a coordinate axis.
-
-    Parameters
-    ----------
-    axis : "x", "y" or "z"
-    angle : array_like, shape (...), radians
-
-    Returns
-    -------
-    array, shape (..., 3, 3)
-    """
-    i = _axis_number(axis)
-    j, k = (i + 1) % 3, (i + 2) % 3
-    angle = np.asarray(angle, float)
-    R = np.zeros(angle.shape + (3, 3))
-    R[..., i, i] = 1
-    R[..., j, j] = R[..., k, k] = np.cos(angle)
-    R[..., k, j] = np.sin(angle)
-    R[..., j, k] = -R[..., k, j]
-    return R
-
-
-def rotation_angle_between(R1, R2):
-    """Angle of the rotation that takes R1 to R2, in [0, pi].
-
-    R1, R2: shape (..., 3, 3). Accurate for tiny angles too, where the usual
-    ``arccos((trace - 1) / 2)`` keeps only half of the digits.
-    """
-    chord = np.linalg.norm(np.asarray(R1, float) - np.asarray(R2, float), axis=(-2, -1))
-    return 2 * np.arcsin(np.minimum(chord / np.sqrt(8), 1))
 
 
 def check_rotation(R, tolerance=1e-6):

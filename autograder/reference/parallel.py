@@ -17,8 +17,9 @@ from itertools import product
 
 import numpy as np
 
+from dhkit.geometry import rotation_2d, wrap
+
 from .equations import DOUBLE, INFINITE, NONE, SOLVED, Roots, type8
-from .two_link import wrap
 
 # In lengths scaled to 1. An error e of a merged mode shows as e^2 in the leg lengths: hence
 # the square between the first two.
@@ -361,9 +362,7 @@ def _lengths(lengths):
 
 def _turn(phi, points):
     """R(phi) applied to points (m, 2): phi of any shape (...) -> (..., m, 2)."""
-    c, s = np.cos(phi)[..., None], np.sin(phi)[..., None]
-    x, y = points[:, 0], points[:, 1]
-    return np.stack([c * x - s * y, s * x + c * y], axis=-1)
+    return points @ np.swapaxes(rotation_2d(phi), -1, -2)
 
 
 def _cross(a, b):

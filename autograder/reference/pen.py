@@ -10,11 +10,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from dhkit.geometry import wrap
+
 from .elbow import ArmGeometry
 from .inverse import Answer, InverseModel, outside_limits, translations
+from .marks import FREE_FIRST, FREE_LINE, FREE_PLANE, SIDEWAYS
 from .solutions import INSIDE, LIMITED, NOTHING, OFF
 from .tables import DHTable
-from .two_link import FREE_FIRST, FREE_LINE, FREE_PLANE, SIDEWAYS, wrap
 
 
 class PenArm(InverseModel):

@@ -8,19 +8,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from dhkit.geometry import SAME_LENGTH, phasor, rotation, two_link, wrap
+
 from .inverse import Answer, InverseModel, JointMap, outside_limits, translations
+from .marks import FOLDED, FREE_CHAIN, FREE_PLANE, STRETCHED, two_link_marks
 from .solutions import BEYOND, LIMITED, NOTHING, OFF, SHORT, TILTED
 from .tables import DHTable
-from .two_link import (
-    FOLDED,
-    FREE_CHAIN,
-    FREE_PLANE,
-    STRETCHED,
-    TOUCHING,
-    two_link,
-    unit,
-    wrap,
-)
 
 
 class PlanarArm(InverseModel):
@@ -77,7 +70,7 @@ class PlanarArm(InverseModel):
             raise ValueError(f"expected the coordinates {self.task}, found {task.shape[1]} numbers")
         poses = translations(task[:, :2])
         if self.joints > 2:
-            _turn_about_z(poses, task[:, 2])
+            poses[:, :3, :3] = rotation("z", task[:, 2])
         return poses
 
     def kernel(self, poses, near, tol):
@@ -89,7 +82,7 @@ class PlanarArm(InverseModel):
             tilt = np.zeros_like(tilt)
         else:
             heading = heading - self._tip_turn
-            target = target - self._tip * unit(heading)
+            target = target - self._tip * phasor(heading)
         least, most = self.reach
         beyond, short = np.abs(target) - most, least - np.abs(target)
 
@@ -99,7 +92,7 @@ class PlanarArm(InverseModel):
             wished = direction + self.map.row(i, near)
             placed = _placed(rest, self.links[i], _reach(self.links[i + 1 :]), wished)
             q[i] = self.map.joint(i, placed - direction)
-            rest, direction = rest - self.links[i] * unit(placed), placed
+            rest, direction = rest - self.links[i] * phasor(placed), placed
         i = self._spare
         arm = two_link(rest, *self.links[i:], direction + self.map.row(i, near), tol)
         q[i] = self.map.joint(i, arm.first - direction)
@@ -107,12 +100,12 @@ class PlanarArm(InverseModel):
         if self.joints > 2:
             q[-1] = self.map.joint(self.joints - 1, heading - arm.first - arm.bend)
 
-        marks = arm.marks
+        marks = two_link_marks(arm)
         if self._spare:
             # The last two links may lie straight by choice, which is no limit of the arm.
-            folded = (short >= -TOUCHING * most) & (least > 0)
+            folded = (short >= -SAME_LENGTH * most) & (least > 0)
             limit = np.where(folded, FOLDED, FREE_CHAIN)
-            limit = np.where(beyond >= -TOUCHING * most, STRETCHED, limit)
+            limit = np.where(beyond >= -SAME_LENGTH * most, STRETCHED, limit)
             marks = (marks & FREE_PLANE) | limit.astype(np.uint8)
         failing = [tilt > tol, off > tol, beyond > tol, short > tol]
         return Answer(
@@ -165,7 +158,7 @@ class Scara(InverseModel):
         # The tool at all joints zero gives its posture at omega = 0.
         self._home = chain.forward(np.zeros(4))
         turn = np.arctan2(self._home[1, 0], self._home[0, 0])
-        self._home[:3, :3] = _about_z(-turn) @ self._home[:3, :3]
+        self._home[:3, :3] = rotation("z", -turn) @ self._home[:3, :3]
 
     @property
     def reach(self) -> tuple[float, float]:
@@ -176,7 +169,7 @@ class Scara(InverseModel):
         if task.shape[1] != 4:
             raise ValueError(f"expected the coordinates {self.task}, found {task.shape[1]} numbers")
         poses = translations(task[:, :3])
-        _turn_about_z(poses, task[:, 3])
+        poses[:, :3, :3] = rotation("z", task[:, 3])
         poses[:, :3, :3] = poses[:, :3, :3] @ self._home[:3, :3]
         return poses
 
@@ -194,7 +187,7 @@ class Scara(InverseModel):
         return Answer(
             q,
             arm.valid & ~failing[0],
-            np.stack([arm.marks, arm.marks]),
+            np.stack([two_link_marks(arm), two_link_marks(arm)]),
             np.select(failing, [tilt, arm.beyond, arm.short], 0.0),
             np.select(failing, [TILTED, BEYOND, SHORT], NOTHING),
         )
@@ -256,14 +249,3 @@ def _out_of_plane_reach(point, reach, cause, miss) -> str:
         LIMITED: outside_limits(miss),
     }
     return texts[cause]
-
-
-def _about_z(angle: float) -> np.ndarray:
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-
-
-def _turn_about_z(poses, angles) -> None:
-    poses[:, 0, 0] = poses[:, 1, 1] = np.cos(angles)
-    poses[:, 1, 0] = np.sin(angles)
-    poses[:, 0, 1] = -poses[:, 1, 0]

@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from .two_link import FREE, LIMIT
+from .marks import FREE, LIMIT
 
 STATUS = ("solved", "boundary", "unreachable", "infinite")
 SOLVED, BOUNDARY, UNREACHABLE, INFINITE = range(4)

@@ -13,10 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 import sympy as sp
 
-from .tables import DHTable
+from dhkit.geometry import PARALLEL, TOUCHING, common_normal, link_axis, rotation
 
-_PARALLEL = 1e-9  # sine of the angle under which two axes count as parallel
-_TOUCHING = 1e-9  # metres under which two axes count as meeting
+from .tables import DHTable
 
 
 @dataclass(frozen=True)
@@ -37,7 +36,7 @@ class UrdfJoint:
         """Joint frame in the parent frame at q = 0, 4x4."""
         frame = np.eye(4)
         roll, pitch, yaw = self.rpy
-        frame[:3, :3] = _turn(2, yaw) @ _turn(1, pitch) @ _turn(0, roll)
+        frame[:3, :3] = rotation("z", yaw) @ rotation("y", pitch) @ rotation("x", roll)
         frame[:3, 3] = self.xyz
         return frame
 
@@ -62,7 +61,7 @@ def table_from_urdf(joints: Sequence[UrdfJoint], name: str = "", limits=None) ->
     a, alpha = 0.0, 0.0
     for i, (axis, sigma) in enumerate(zip(axes, sigmas)):
         if i + 1 < len(axes):
-            foot, next_x, next_a = _common_normal(origin, axis, points[i + 1], axes[i + 1], x)
+            foot, next_x, next_a = _next_link(origin, axis, points[i + 1], axes[i + 1], x)
         else:
             foot, next_x, next_a = origin, x, 0.0
         d = float(axis @ (foot - origin))
@@ -103,7 +102,7 @@ def _axes_at_zero(joints):
 
 def _base_frame(point, axis) -> np.ndarray:
     """Frame 0: the URDF base if its z axis is axis 1, else a frame placed on axis 1."""
-    on_z = np.hypot(axis[0], axis[1]) < _PARALLEL and np.hypot(point[0], point[1]) < _TOUCHING
+    on_z = np.hypot(axis[0], axis[1]) < PARALLEL and np.hypot(point[0], point[1]) < TOUCHING
     if on_z and axis[2] > 0:
         return np.eye(4)
     frame = np.eye(4)
@@ -115,42 +114,25 @@ def _base_frame(point, axis) -> np.ndarray:
     return frame
 
 
-def _common_normal(origin, axis, next_point, next_axis, previous_x):
+def _next_link(origin, axis, next_point, next_axis, previous_x):
     """Foot of the common normal on the axis, X direction and signed length a to the next axis."""
-    between = next_point - origin
-    cross = np.cross(axis, next_axis)
-    if np.linalg.norm(cross) < _PARALLEL:
-        foot = origin
-        across = between - (between @ axis) * axis
-    else:
-        along = np.linalg.det([between, next_axis, cross]) / (cross @ cross)
-        foot = origin + along * axis
-        across = ((between @ cross) / (cross @ cross)) * cross
-    length = np.linalg.norm(across)
-    if length > _TOUCHING:
-        x = across / length
-    elif np.linalg.norm(cross) < _PARALLEL:
+    normal = common_normal((origin, axis), (next_point, next_axis))
+    across = normal.feet[1] - normal.feet[0]
+    if not normal.meeting:
+        x = across / np.linalg.norm(across)
+    elif normal.parallel:
         x = previous_x - (previous_x @ axis) * axis
         x = x / np.linalg.norm(x)
     else:
-        x = cross / np.linalg.norm(cross)
-    if x @ previous_x < -_PARALLEL:
+        x = link_axis((origin, axis), (next_point, next_axis))
+    if x @ previous_x < -PARALLEL:
         x = -x
-    return foot, x, float(across @ x)
+    return normal.feet[0], x, float(across @ x)
 
 
 def _angle(start, end, about) -> float:
     """Angle from one vector to another about an axis perpendicular to both, radians."""
     return float(np.arctan2(np.cross(start, end) @ about, start @ end))
-
-
-def _turn(axis: int, angle: float) -> np.ndarray:
-    i, j = (axis + 1) % 3, (axis + 2) % 3
-    turn = np.eye(3)
-    turn[i, i] = turn[j, j] = np.cos(angle)
-    turn[j, i] = np.sin(angle)
-    turn[i, j] = -turn[j, i]
-    return turn
 
 
 def _tidy(values):

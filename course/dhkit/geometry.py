@@ -37,19 +37,21 @@ _NEXT, _LAST = [1, 2, 0], [2, 0, 1]
 # ---------------------------------------------------------------- angles and directions
 
 
-def wrap(angle: ArrayLike) -> np.ndarray:
+def wrap(angle: ArrayLike, rounding: float = 6e-13) -> np.ndarray:
     """The same angle in (-pi, pi]; -pi and its rounding neighbours become pi.
 
     Parameters
     ----------
     angle : array_like, shape (...), in radians
+    rounding : float, in radians
+        How far above -pi an angle still counts as -pi.
 
     Returns
     -------
     ndarray, shape (...), in radians
     """
     angle = np.asarray(angle)
-    turns = np.ceil((angle - np.pi) * (0.5 / np.pi) - 1e-13)
+    turns = np.ceil((angle - np.pi - rounding) * (0.5 / np.pi))
     return np.minimum(angle - turns * (2 * np.pi), np.pi)
 
 
@@ -191,6 +193,65 @@ def trans(axis: str, distance: ArrayLike) -> np.ndarray:
     return matrix
 
 
+def rigid_transform(turn: ArrayLike, shift: ArrayLike) -> np.ndarray:
+    """Homogeneous transform of a frame with the given axes and origin.
+
+    Parameters
+    ----------
+    turn : array_like, shape (..., 3, 3)
+        Rotation matrix: the axes of the frame as columns.
+    shift : array_like, shape (..., 3), in metres
+        Its origin.
+
+    Returns
+    -------
+    ndarray, shape (..., 4, 4)
+    """
+    turn, shift = np.asarray(turn, dtype=float), np.asarray(shift, dtype=float)
+    matrix = np.zeros((*np.broadcast_shapes(turn.shape[:-2], shift.shape[:-1]), 4, 4))
+    matrix[..., :3, :3], matrix[..., :3, 3], matrix[..., 3, 3] = turn, shift, 1
+    return matrix
+
+
+def rotation_angle_between(first: ArrayLike, second: ArrayLike) -> np.ndarray:
+    """Angle of the rotation that takes one orientation to another.
+
+    Parameters
+    ----------
+    first, second : array_like, shape (..., 3, 3)
+        Rotation matrices.
+
+    Returns
+    -------
+    ndarray, shape (...), in radians, in [0, pi]
+
+    Notes
+    -----
+    Accurate for tiny angles too, where the usual ``arccos((trace - 1) / 2)`` keeps only half of the digits.
+    """
+    chord = np.linalg.norm(np.asarray(first, dtype=float) - np.asarray(second, dtype=float), axis=(-2, -1))
+    return 2 * np.arcsin(np.minimum(chord / np.sqrt(8), 1))
+
+
+def chain_products(transforms: ArrayLike) -> np.ndarray:
+    """Frames of a chain seen from its base: the products I, M1, M1 M2, ... of the steps from frame to frame.
+
+    Parameters
+    ----------
+    transforms : array_like, shape (n, m, m)
+
+    Returns
+    -------
+    ndarray, shape (n + 1, m, m)
+    """
+    transforms = np.asarray(transforms, dtype=float)
+    frames = np.empty((len(transforms) + 1, *transforms.shape[1:]))
+    frames[0] = np.eye(transforms.shape[-1])
+    for i, step in enumerate(transforms):
+        frames[i + 1] = frames[i] @ step
+    return frames
+
+
 def _axis_number(axis: str) -> int:
     if axis not in ("x", "y", "z"):
         raise ValueError(f"axis: expected 'x', 'y' or 'z', found {axis!r}")
@@ -213,13 +274,32 @@ def modified_dh(a: ArrayLike, alpha: ArrayLike, d: ArrayLike, theta: ArrayLike) 
     Returns
     -------
     ndarray, shape (..., 4, 4)
+        Complex if a parameter is.
 
     Notes
     -----
     The convention of Khalil and Kleinfinger [2]_ and of Craig [1]_, and of the MECA 953 slides.
     """
-    ca, sa, c, s = np.cos(alpha), np.sin(alpha), np.cos(theta), np.sin(theta)
-    return _affine([[c, -s, 0, a], [s * ca, c * ca, -sa, -sa * d], [s * sa, c * sa, ca, ca * d]])
+    return modified_dh_of_cosines(a, np.cos(alpha), np.sin(alpha), d, np.cos(theta), np.sin(theta))
+
+
+def modified_dh_of_cosines(
+    a: ArrayLike, cos_alpha: ArrayLike, sin_alpha: ArrayLike, d: ArrayLike, cos_theta: ArrayLike, sin_theta: ArrayLike
+) -> np.ndarray:
+    """`modified_dh` for cosines and sines that are already known, for instance exactly 0 and 1.
+
+    Parameters
+    ----------
+    a, d : array_like, in metres
+    cos_alpha, sin_alpha, cos_theta, sin_theta : array_like
+        All six broadcast against each other to the shape (...).
+
+    Returns
+    -------
+    ndarray, shape (..., 4, 4)
+    """
+    ca, sa, c, s = np.asarray(cos_alpha), np.asarray(sin_alpha), np.asarray(cos_theta), np.asarray(sin_theta)
+    return _affine([[c, -s, 0.0, a], [s * ca, c * ca, -sa, -sa * d], [s * sa, c * sa, ca, ca * d]])
 
 
 def classic_dh(a: ArrayLike, alpha: ArrayLike, d: ArrayLike, theta: ArrayLike) -> np.ndarray:
@@ -241,14 +321,16 @@ def classic_dh(a: ArrayLike, alpha: ArrayLike, d: ArrayLike, theta: ArrayLike) -
     The convention of Denavit and Hartenberg [3]_.
     """
     ca, sa, c, s = np.cos(alpha), np.sin(alpha), np.cos(theta), np.sin(theta)
-    return _affine([[c, -ca * s, sa * s, a * c], [s, ca * c, -sa * c, a * s], [0, sa, ca, d]])
+    return _affine([[c, -ca * s, sa * s, a * c], [s, ca * c, -sa * c, a * s], [0.0, sa, ca, d]])
 
 
 def _affine(rows: list[list[ArrayLike]]) -> np.ndarray:
     """Homogeneous transforms, (..., 4, 4), from their first three rows, whose entries broadcast."""
-    entries = np.broadcast_arrays(*(np.asarray(entry, dtype=float) for row in rows for entry in row))
-    matrix = np.zeros((*entries[0].shape, 4, 4))
-    matrix[..., :3, :] = np.stack(entries, axis=-1).reshape(*entries[0].shape, 3, 4)
+    entries = [entry for row in rows for entry in row]
+    matrix = np.zeros((*np.broadcast(*entries).shape, 4, 4), dtype=np.result_type(float, *entries))
+    for i, row in enumerate(rows):
+        for j, entry in enumerate(row):
+            matrix[..., i, j] = entry
     matrix[..., 3, 3] = 1
     return matrix
 
@@ -274,13 +356,15 @@ class CommonNormal(NamedTuple):
     meeting: np.ndarray
 
 
-def common_normal(first: Line, second: Line) -> CommonNormal:
+def common_normal(first: Line, second: Line, parallel_below: float = PARALLEL) -> CommonNormal:
     """Common normal of two lines in space.
 
     Parameters
     ----------
     first, second : (point, direction), each of shape (..., 3)
         Points in metres; directions of any length but zero.
+    parallel_below : float
+        Sine of the angle under which the lines count as parallel.
 
     Raises
     ------
@@ -291,7 +375,7 @@ def common_normal(first: Line, second: Line) -> CommonNormal:
     between = q - p
     cosine = _dot(u, v)
     sine = np.linalg.norm(cross(u, v), axis=-1)
-    parallel = sine < PARALLEL
+    parallel = sine < parallel_below
     square = np.where(parallel, 1.0, sine**2)
     along_u, along_v = _dot(between, u), _dot(between, v)
     at_first = np.where(parallel, 0.0, (along_u - cosine * along_v) / square)
@@ -453,7 +537,7 @@ def two_link(target: ArrayLike, l1: ArrayLike, l2: ArrayLike, anchor: ArrayLike 
     if free.any():
         first_turn = np.where(free, phasor(anchor), first_turn)
         size = np.where(free, 1.0, size)
-    first_turn = first_turn / np.where(size > 0.0, size, 1.0)
+    first_turn /= np.where(size > 0.0, size, 1.0)
     first = np.arctan2(first_turn.imag, first_turn.real)
 
     reach = np.maximum(tol, SAME_LENGTH * total)

@@ -5,9 +5,6 @@ from __future__ import annotations
 import html
 from dataclasses import dataclass
 
-from IPython import get_ipython
-from IPython.display import display
-
 _MARKS = {True: "\N{CHECK MARK}", False: "\N{BALLOT X}", None: "\N{BULLET}"}
 # Okabe-Ito colours: told apart by colour-blind readers; the marks carry the same meaning in grey print.
 _COLOURS = {True: "#009E73", False: "#D55E00", None: "#555555"}
@@ -50,6 +47,10 @@ class Notice:
 
 def show(notice: Notice, data: dict | None = None) -> None:
     """Display `notice`; in Jupyter the MIME bundle `data` goes along, unseen."""
+    # Here, since the reference solver imports the kit's geometry and has no use for IPython, which is slow to load.
+    from IPython import get_ipython
+    from IPython.display import display
+
     if get_ipython() is None:
         print(notice.text())
     else:

@@ -121,8 +121,8 @@ class Shell:
 
     def __init__(self, monkeypatch):
         self.shown = []
-        monkeypatch.setattr("dhkit.notice.get_ipython", lambda: self)
-        monkeypatch.setattr("dhkit.notice.display", lambda data, raw: self.shown.append(data))
+        monkeypatch.setattr("IPython.get_ipython", lambda: self)
+        monkeypatch.setattr("IPython.display.display", lambda data, raw: self.shown.append(data))
 
 
 def test_in_jupyter_the_answer_travels_as_data(monkeypatch):

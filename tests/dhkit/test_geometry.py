@@ -7,16 +7,20 @@ from scipy.spatial.transform import Rotation
 
 from dhkit import geometry
 from dhkit.geometry import (
+    chain_products,
     classic_dh,
     common_normal,
     link_axis,
     modified_dh,
+    modified_dh_of_cosines,
     perpendicular,
     phasor,
     planar_joints,
+    rigid_transform,
     rot,
     rotation,
     rotation_2d,
+    rotation_angle_between,
     trans,
     two_link,
     unit_vector,
@@ -89,6 +93,30 @@ def test_translations_move_along_their_axis(axis):
     assert np.allclose(moved[..., :3] - (1, 2, 3), distances[..., None] * np.eye(3)["xyz".index(axis)])
 
 
+def test_a_rigid_transform_has_the_given_axes_and_origin():
+    turns, shifts = rotation("y", RNG.normal(size=(4, 1))), RNG.normal(size=(3, 3))
+    frames = rigid_transform(turns, shifts)
+    assert frames.shape == (4, 3, 4, 4) and np.allclose(
+        frames[2, 1], trans("x", 0) @ rigid_transform(turns[2, 0], shifts[1])
+    )
+    assert np.allclose(frames[..., :3, 3], shifts) and np.allclose(frames[..., :3, :3], turns)
+    assert np.allclose(frames[..., 3, :], (0, 0, 0, 1))
+
+
+def test_the_angle_between_two_orientations_is_that_of_scipy_also_when_it_is_tiny():
+    first, second = Rotation.random(50, RNG), Rotation.random(50, RNG)
+    expected = (first.inv() * second).magnitude()
+    assert np.allclose(rotation_angle_between(first.as_matrix(), second.as_matrix()), expected)
+    assert rotation_angle_between(rotation("x", 0.4 + 1e-9), rotation("x", 0.4)) == pytest.approx(1e-9, rel=1e-6)
+    assert rotation_angle_between(rotation("z", np.pi), np.eye(3)) == pytest.approx(np.pi)
+
+
+def test_a_chain_is_the_product_of_its_steps():
+    steps = RNG.normal(size=(3, 4, 4))
+    expected = [np.eye(4), steps[0], steps[0] @ steps[1], steps[0] @ steps[1] @ steps[2]]
+    assert np.allclose(chain_products(steps), expected)
+
+
 @pytest.mark.parametrize("make", [rotation, rot, trans])
 def test_an_unknown_axis_is_named(make):
     for axis in ("w", "xy", ""):
@@ -125,6 +153,16 @@ def test_parameters_broadcast(matrix):
     assert found.shape == (5, 2, 4, 4)
     assert np.allclose(found[3, 1], matrix(0.4, np.pi / 2, 0.1, theta[3, 1]))
     assert matrix(1, 0, 2, 0).shape == (4, 4)
+
+
+def test_complex_parameters_stay_complex():
+    found = modified_dh(0.2, 0.5j, 1, 1 + 0.3j)
+    assert found.dtype == complex and found[0, 0] == pytest.approx(np.cos(1 + 0.3j))
+
+
+def test_known_cosines_are_taken_as_they_are():
+    exact = modified_dh_of_cosines(0.4, 0, 1, 0.1, -1, 0)
+    assert exact.tolist() == [[-1, 0, 0, 0.4], [0, 0, -1, -0.1], [0, -1, 0, 0], [0, 0, 0, 1]]
 
 
 # ---------------------------------------------------------------- lines

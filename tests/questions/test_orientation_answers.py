@@ -7,7 +7,8 @@ import pytest
 
 from autograder.questions import find
 from autograder.questions.orientation import R, e, rotation_and_sign, wrist_angles
-from autograder.reference.orientation import EULER_SETS, euler_angles, rotation_angle_between, rpy_matrix
+from autograder.reference.orientation import EULER_SETS, euler_angles, rpy_matrix
+from dhkit.geometry import rotation_angle_between
 from dhkit.public import variant_ranges
 from dhkit.variants import OwnNumbers
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from autograder.reference import equations as eq
-from autograder.reference.orientation import wrap
+from dhkit.geometry import wrap
 
 pytestmark = pytest.mark.filterwarnings("error")
 

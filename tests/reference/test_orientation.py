@@ -5,6 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from autograder.reference import orientation as ori
+from dhkit.geometry import rotation, rotation_angle_between, wrap
 
 pytestmark = pytest.mark.filterwarnings("error")
 READINGS = [(axes, intrinsic) for axes in ori.EULER_SETS for intrinsic in (True, False)]
@@ -52,7 +53,7 @@ def test_both_solutions_are_right_distinct_and_all(axes, intrinsic):
     assert found.angles.shape == (2000, 2, 3)
     assert not found.singular.any()
     assert np.abs(scipy_matrix(found.angles, axes, intrinsic) - R[:, None]).max() < 1e-13
-    gap = np.abs(ori.wrap(found.angles - angles[:, None])).max(axis=-1)
+    gap = np.abs(wrap(found.angles - angles[:, None])).max(axis=-1)
     assert (gap.min(axis=-1) < 1e-9).all(), "the generating triple is missing"
     assert (gap.max(axis=-1) > 1e-3).all(), "the two solutions coincide"
 
@@ -68,7 +69,7 @@ def test_no_third_solution_by_numeric_multistart():
         for start in np.stack(np.meshgrid(*[[-2.5, 0.0, 2.5]] * 3), -1).reshape(-1, 3):
             fit = least_squares(lambda q: (scipy_matrix(q, axes, True) - R).ravel(), start)
             if fit.cost < 1e-20:
-                gap = np.abs(ori.wrap(found - fit.x)).max(axis=-1)
+                gap = np.abs(wrap(found - fit.x)).max(axis=-1)
                 assert gap.min() < 1e-6
                 hits.add(int(gap.argmin()))
         assert hits == {0, 1}
@@ -84,13 +85,13 @@ def test_round_angles_and_gimbal_lock(axes, intrinsic):
     degenerate = is_degenerate(axes, angles[:, 1])
     assert (found.singular == degenerate).all()
 
-    gap = np.abs(ori.wrap(found.angles - angles[:, None])).max(axis=-1).min(axis=-1)
+    gap = np.abs(wrap(found.angles - angles[:, None])).max(axis=-1).min(axis=-1)
     assert (gap[~degenerate] < 1e-9).all()
 
     is_sum = found.status[degenerate] == ori.ONLY_SUM
     a, c = angles[degenerate, 0], angles[degenerate, 2]
     true = np.where(is_sum, a + c, a - c)
-    assert np.abs(ori.wrap(found.combination[degenerate] - true)).max() < 1e-12
+    assert np.abs(wrap(found.combination[degenerate] - true)).max() < 1e-12
     other = np.where(is_sum, a - c, a + c)
     assert np.ptp(other) > 1, "the free combination does vary in this test"
 
@@ -105,7 +106,7 @@ def test_the_family_of_a_singular_rotation_reproduces_it(axes, intrinsic):
         members = found.family(first)
         assert np.allclose(members[:, 0], first)
         assert np.abs(scipy_matrix(members, axes, intrinsic) - R).max() < 1e-12
-    assert np.abs(ori.wrap(found.family(angles[:, 0]) - angles)[:, [0, 2]]).max() < 1e-12
+    assert np.abs(wrap(found.family(angles[:, 0]) - angles)[:, [0, 2]]).max() < 1e-12
 
 
 @pytest.mark.parametrize("axes, intrinsic", READINGS)
@@ -127,14 +128,14 @@ def test_first_solution_agrees_with_scipy(axes, intrinsic):
     letters = axes.upper() if intrinsic else axes
     theirs = Rotation.from_matrix(R).as_euler(letters)
     ours = ori.euler_angles(R, axes, intrinsic=intrinsic).angles[:, 0]
-    assert np.abs(ori.wrap(ours - theirs)).max() < 1e-9
+    assert np.abs(wrap(ours - theirs)).max() < 1e-9
 
 
 def test_confusing_intrinsic_and_extrinsic_is_noticed():
     angles = np.array([0.3, 0.5, -0.8])
     body = ori.euler_matrix(angles, "xzy", intrinsic=True)
     fixed = ori.euler_matrix(angles, "xzy", intrinsic=False)
-    assert ori.rotation_angle_between(body, fixed) > 0.1
+    assert rotation_angle_between(body, fixed) > 0.1
 
 
 def test_shapes_follow_the_batch():
@@ -167,12 +168,12 @@ def test_rpy_of_the_documents_vector():
     assert np.allclose(first, [20, 35, 50])
     assert np.allclose(second, [-160, 145, -130])
     sign_lost = ori.rpy_matrix(*np.radians([20, 145, 50]))
-    assert ori.rotation_angle_between(R, sign_lost) > 0.5
+    assert rotation_angle_between(R, sign_lost) > 0.5
 
 
 def test_wrists_of_the_documents_have_the_printed_products():
     p, n, r = 0.4, 1.1, -0.7
-    Rx, Rz, Ry = (lambda t: ori.rotation("x", t)), (lambda t: ori.rotation("z", t)), (lambda t: ori.rotation("y", t))
+    Rx, Rz, Ry = (lambda t: rotation("x", t)), (lambda t: rotation("z", t)), (lambda t: rotation("y", t))
     assert np.allclose(ori.euler_matrix([p, n, r], ori.EULER_WRIST, intrinsic=True), Rz(p) @ Rx(n) @ Rz(r))
     assert np.allclose(ori.euler_matrix([p, n, r], ori.CARDAN_WRIST, intrinsic=True), Rx(p) @ Rz(n) @ Ry(r))
 
@@ -190,8 +191,8 @@ def test_wrong_matrices_are_refused():
                 convert(bad)
     with pytest.raises(ValueError, match="unknown Euler set"):
         ori.euler_angles(np.eye(3), "zzx", intrinsic=True)
-    with pytest.raises(ValueError, match="an axis is"):
-        ori.rotation("u", 0.1)
+    with pytest.raises(ValueError, match="'x', 'y' or 'z'"):
+        rotation("u", 0.1)
 
 
 # -- quaternions, axis and angle -------------------------------------------------
@@ -221,9 +222,9 @@ def test_quaternion_agrees_with_scipy():
 
 def test_half_turns_about_the_axes_have_a_fixed_sign():
     for axis in "xyz":
-        q = ori.quaternion(ori.rotation(axis, np.pi))
+        q = ori.quaternion(rotation(axis, np.pi))
         assert np.allclose(q, np.eye(4)["wxyz".index(axis)], atol=1e-15)
-        assert np.allclose(ori.quaternion(ori.rotation(axis, -np.pi)), q, atol=1e-15)
+        assert np.allclose(ori.quaternion(rotation(axis, -np.pi)), q, atol=1e-15)
 
 
 def test_axis_angle_both_solutions():
@@ -240,8 +241,8 @@ def test_axis_angle_both_solutions():
 
 def test_axis_angle_status():
     assert ori.axis_angle(np.eye(3)).status == ori.AXIS_FREE
-    assert ori.axis_angle(ori.rotation("y", np.pi)).status == ori.HALF_TURN
-    assert ori.axis_angle(ori.rotation("y", 2.0)).status == ori.AXIS_DEFINED
+    assert ori.axis_angle(rotation("y", np.pi)).status == ori.HALF_TURN
+    assert ori.axis_angle(rotation("y", 2.0)).status == ori.AXIS_DEFINED
     with pytest.raises(ValueError, match="not all zero"):
         ori.axis_angle_matrix([0, 0, 0], 1.0)
 
@@ -249,13 +250,6 @@ def test_axis_angle_status():
 def test_small_angles_are_not_lost():
     """arccos((trace - 1)/2) would return 0 or 1.5e-8 here."""
     angle = np.array([1e-9, 3e-9, 1e-7])
-    R = ori.rotation("x", angle)
-    assert np.allclose(ori.rotation_angle_between(R, np.eye(3)), angle, rtol=1e-7)
+    R = rotation("x", angle)
+    assert np.allclose(rotation_angle_between(R, np.eye(3)), angle, rtol=1e-7)
     assert np.allclose(ori.axis_angle(R, tolerance=1e-12).angle, angle, rtol=1e-7)
-
-
-def test_wrap():
-    angles = np.array([0, np.pi, -np.pi, 3 * np.pi, 7.0, -7.0])
-    assert np.allclose(ori.wrap(angles), [0, np.pi, np.pi, np.pi, 7 - 2 * np.pi, 2 * np.pi - 7])
-    many = np.random.default_rng(0).uniform(-100, 100, 10000)
-    assert (ori.wrap(many) <= np.pi).all() and (ori.wrap(many) > -np.pi).all()

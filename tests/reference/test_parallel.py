@@ -10,8 +10,8 @@ import pytest
 from scipy.optimize import brentq
 
 from autograder.reference.equations import DOUBLE, INFINITE, NONE, SOLVED
-from autograder.reference.orientation import wrap
 from autograder.reference.parallel import ThreeRPR, ThreeRRR
+from dhkit.geometry import wrap
 
 pytestmark = pytest.mark.filterwarnings("error")
 CONGRUENT = ThreeRPR(base=[(0, 0), (1, 0), (0, 1)], platform=[(0, 0), (1, 0), (0, 1)])

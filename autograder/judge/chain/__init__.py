@@ -104,7 +104,7 @@ Modules: `frames` (a table as frames on joint axes), `freedoms`, `segments`, `pr
 """
 
 from .compare import ChainMatch, same_chain
-from .frames import JudgedChain, NotAChain, transforms
+from .frames import JudgedChain, NotAChain
 from .freedoms import SAME_MODEL, Freedom, Used
 from .parting import Parting
 
@@ -117,5 +117,4 @@ __all__ = [
     "Parting",
     "Used",
     "same_chain",
-    "transforms",
 ]

@@ -8,8 +8,10 @@ from itertools import product
 
 import numpy as np
 
+from dhkit.geometry import cross, rigid_transform, wrap
+
 from .alignment import Alignment, DeadEnd, align
-from .frames import JudgedChain, cross
+from .frames import JudgedChain
 from .freedoms import Freedom, Pins, Price, Used
 from .linear import times, transposed
 from .parting import Parting, parting_of_axes, parting_of_joints, parting_of_signs
@@ -176,8 +178,8 @@ def _match(student: JudgedChain, reference: JudgedChain, found: Alignment, pins:
     signs = np.sign((found.senses[:, None] * student.coupling * reference.coupling).sum(axis=0)).astype(int)
     signs[signs == 0] = 1
     turning = ~(np.abs(reference.coupling).T @ np.array(reference.prismatic, dtype=float) > 0)
-    offsets[:, turning] = _wrapped(offsets[:, turning])
-    base, last = (_rigid(found.rotations[:, link], found.shifts[:, link]) for link in (0, -1))
+    offsets[:, turning] = wrap(offsets[:, turning], _ROUNDING)
+    base, last = (rigid_transform(found.rotations[:, link], found.shifts[:, link]) for link in (0, -1))
     tool = np.linalg.inv(last @ student.end) @ reference.end
     used = [
         *_used_at_ends(reference, base, tool, tolerance),
@@ -199,17 +201,6 @@ def _strokes(reference: JudgedChain, found: Alignment) -> np.ndarray:
             turned = times(found.rotations[:, i] @ transposed(found.rotations[:, i + 1]), x)
             strokes[:, i] = np.arctan2((turned * cross(z, x)).sum(axis=-1), (turned * x).sum(axis=-1))
     return strokes
-
-
-def _wrapped(angles: np.ndarray) -> np.ndarray:
-    """In (-pi, pi], angles within rounding of -pi taken as pi."""
-    return np.pi - np.mod(np.pi - angles + _ROUNDING, 2 * np.pi) + _ROUNDING
-
-
-def _rigid(rotation: np.ndarray, shift: np.ndarray) -> np.ndarray:
-    motion = np.zeros((len(rotation), 4, 4))
-    motion[:, :3, :3], motion[:, :3, 3], motion[:, 3, 3] = rotation, shift, 1
-    return motion
 
 
 def _used_at_ends(reference: JudgedChain, base: np.ndarray, tool: np.ndarray, tolerance: float) -> Iterator[Used]:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dhkit import wire
+from dhkit.geometry import modified_dh
 from dhkit.public import DH_COLUMNS
 
 from ..decode import Expression, Number, decode_answer
@@ -32,7 +33,6 @@ _WIDTH = len(DH_COLUMNS)
 _BASE, _CHECKS = 0.37, (-4.19, 9.83)
 _EXACT = 1e-7
 _HUGE = 1e300
-_NEXT, _LAST = [1, 2, 0], [2, 0, 1]
 
 
 class NotAChain(ValueError):
@@ -102,7 +102,7 @@ class JudgedChain:
         driven = np.flatnonzero(coefficients.any(axis=1))
         if len(driven) > MAX_JOINTS:
             raise NotAChain(f"the table has {len(driven)} joints; at most {MAX_JOINTS} are compared")
-        steps = [transforms(*(np.array(column) for column in np.broadcast_arrays(*row[2:]))) for row in rows]
+        steps = [modified_dh(*row[2:]) for row in rows]
         each = list(accumulate(steps, np.matmul))
         samples = max(len(frame) for frame in each)
         frames = np.stack([np.broadcast_to(frame, (samples, 4, 4)) for frame in each], axis=1)
@@ -213,16 +213,3 @@ def _row(number: int, entries: Sequence[object], values: _Values) -> tuple:
         kind, column = ("prismatic", "theta") if prismatic else ("revolute", "d")
         raise NotAChain(f"row {number}: sigma says {kind}, but a joint variable stands in column {column}")
     return variable, prismatic, a, alpha, d, theta
-
-
-def transforms(a: np.ndarray, alpha: np.ndarray, d: np.ndarray, theta: np.ndarray) -> np.ndarray:
-    """Modified DH matrices, (K, 4, 4)."""
-    c, s, ca, sa = np.cos(theta), np.sin(theta), np.cos(alpha), np.sin(alpha)
-    zero, one = np.zeros_like(a), np.ones_like(a)
-    cells = [c, -s, zero, a, s * ca, c * ca, -sa, -sa * d, s * sa, c * sa, ca, ca * d, zero, zero, zero, one]
-    return np.stack(cells, axis=-1).reshape(-1, 4, 4)
-
-
-def cross(first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """Vector product over the last axis; several times faster on small arrays than NumPy's."""
-    return first[..., _NEXT] * second[..., _LAST] - first[..., _LAST] * second[..., _NEXT]

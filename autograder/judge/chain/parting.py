@@ -7,8 +7,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from dhkit.geometry import common_normal, cross
+
 from .alignment import DeadEnd
-from .frames import JudgedChain, cross
+from .frames import JudgedChain
 
 _SAME_COEFFICIENT = 1e-7
 _PARALLEL = 1e-7
@@ -119,13 +121,9 @@ def _distance(chain: JudgedChain, before: int, joint: int) -> np.ndarray:
 
 def _foot(chain: JudgedChain, joint: int, other: int) -> np.ndarray | None:
     """Foot, on the axis of `joint`, of its common normal with the axis of `other`, (K, 3); None if they are parallel."""
-    axis, away = chain.axes[:, joint], chain.axes[:, other]
-    cosine = (axis * away).sum(axis=-1)
-    if np.sqrt(np.clip(1 - cosine**2, 0, None)).min() <= _PARALLEL:
-        return None
-    between = chain.origins[:, other] - chain.origins[:, joint]
-    along = ((between * axis).sum(axis=-1) - (between * away).sum(axis=-1) * cosine) / (1 - cosine**2)
-    return chain.origins[:, joint] + along[:, None] * axis
+    lines = ((chain.origins[:, i], chain.axes[:, i]) for i in (joint, other))
+    normal = common_normal(*lines, _PARALLEL)
+    return None if normal.parallel.any() else normal.feet[:, 0]
 
 
 def _offset(chain: JudgedChain, before: int, joint: int) -> np.ndarray | None:

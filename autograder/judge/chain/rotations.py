@@ -12,7 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .frames import JudgedChain, cross
+from dhkit.geometry import cross
+
+from .frames import JudgedChain
 from .freedoms import Freedom
 from .linear import RANK, transposed
 from .problem import Problem

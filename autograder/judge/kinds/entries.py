@@ -16,6 +16,7 @@ from typing import TypeVar
 import numpy as np
 
 from dhkit.forms import array_shape
+from dhkit.geometry import rotation_angle_between, wrap
 from dhkit.public import PublicQuestion
 
 from ..decode import Blank, Expression
@@ -128,11 +129,11 @@ def agreement(student: Entries, other: Entries, setting: Setting, angles: Sequen
 
 
 def difference(a: np.ndarray, b: np.ndarray, angles: np.ndarray) -> np.ndarray:
-    """a - b, the real part of angles in [-pi, pi)."""
+    """a - b, the real part of angles in (-pi, pi]."""
     found = a - b
     if not np.any(angles):
         return found
-    return np.where(angles, (found.real + np.pi) % (2 * np.pi) - np.pi + 1j * found.imag, found)
+    return np.where(angles, wrap(found.real) + 1j * found.imag, found)
 
 
 def _agree_exactly(student: Expression | Blank, other: Expression, setting: Setting, angle: bool) -> bool:
@@ -224,8 +225,8 @@ def _cells(agree: np.ndarray) -> tuple[str, ...]:
 def _rotation_error(theirs: np.ndarray, ours: np.ndarray, where: str) -> str:
     with np.errstate(all="ignore"):
         skew = np.abs(np.swapaxes(theirs, 1, 2) @ theirs - np.eye(theirs.shape[-1])).max()
-        chord = np.linalg.norm(theirs - ours, axis=(1, 2)).max()
+        angle = rotation_angle_between(theirs.real, ours.real).max()
         rigid = skew < 1e-4 and (np.linalg.det(theirs).real > 0).all()
     if not rigid:
         return "its rotation block is no rotation: columns of length 1, orthogonal, right-handed"
-    return f"the rotation is off by up to {np.degrees(2 * np.arcsin(min(chord / np.sqrt(8), 1))):.3g} deg{where}"
+    return f"the rotation is off by up to {np.degrees(angle):.3g} deg{where}"

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from autograder.reference.orientation import euler_matrix, rotation_angle_between
+from autograder.reference.orientation import euler_matrix
 from dhkit.forms import array_shape
+from dhkit.geometry import rotation_angle_between
 from dhkit.public import PublicQuestion
 
 from .base import Comparison, Setting, describe, in_order, refuse

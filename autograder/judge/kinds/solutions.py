@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from dhkit.forms import array_shape
+from dhkit.geometry import wrap
 from dhkit.public import PublicQuestion
 
 from ..decode import Blank, Expression, Number, Record
@@ -92,7 +93,7 @@ def _close(a: np.ndarray, b: np.ndarray, setting: Setting) -> np.ndarray:
     gap = np.abs(a[:, None] - b[None])
     angles = list(setting.angles)
     radians = gap[..., angles] * (2 * np.pi / setting.turn)
-    gap[..., angles] = np.abs((radians + np.pi) % (2 * np.pi) - np.pi)
+    gap[..., angles] = np.abs(wrap(radians))
     return (gap <= setting.tolerance).all(axis=-1)
 
 

@@ -22,11 +22,10 @@ from autograder.judge.misconceptions import (
 from autograder.reference.orientation import (
     euler_angles,
     euler_matrix,
-    rotation,
-    rotation_angle_between,
     rpy,
     rpy_matrix,
 )
+from dhkit.geometry import rotation, rotation_angle_between
 
 phi, theta, psi, e = sympy.symbols("phi theta psi e")
 R = sympy.Matrix(3, 3, lambda i, j: sympy.Symbol(f"r{i + 1}{j + 1}"))

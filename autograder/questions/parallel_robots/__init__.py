@@ -8,7 +8,7 @@ import sympy
 from autograder.judge import Question, mistake
 from autograder.judge.misconceptions import degrees, option, symbol_negated
 from autograder.reference.parallel import ThreeRPR, ThreeRRR
-from autograder.reference.two_link import wrap
+from dhkit.geometry import wrap
 
 x, y, phi, u, v, q1, q2, c, L = sympy.symbols("x y phi u v q1 q2 c L")
 

@@ -14,7 +14,8 @@ from autograder.judge.misconceptions import (
     transposed_rotation,
 )
 from autograder.reference import robots
-from autograder.reference.lines import common_normal, link, link_axis, link_frame
+from autograder.reference.lines import link, link_frame
+from dhkit.geometry import common_normal, link_axis
 
 
 class Found(list):
@@ -69,13 +70,13 @@ def skew_axes(mine):
 
 def origin(mine):
     first, second = skew_axes(mine)
-    feet, (p, u), (q, _) = common_normal(first, second), first, second
+    feet, (p, u), (q, _) = common_normal(first, second).feet, first, second
     return Found(feet[0], other_foot=feet[1], joint=p, dropped=p + ((q - p) @ u) * u, middle=feet.mean(axis=0))
 
 
 def x_axis(mine):
     first, second = skew_axes(mine)
-    feet, (p, u), (q, v) = common_normal(first, second), first, second
+    feet, (p, u), (q, v) = common_normal(first, second).feet, first, second
     return Found(
         link_axis(first, second), wedge=np.cross(u, v), normal=feet[1] - feet[0], joints=(q - p) / np.linalg.norm(q - p)
     )

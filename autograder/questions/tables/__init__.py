@@ -8,7 +8,6 @@ import numpy as np
 import sympy
 
 from autograder.judge import Question, mistake
-from autograder.judge.chain import transforms
 from autograder.judge.misconceptions import (
     arguments_in_degrees,
     misprint,
@@ -16,6 +15,7 @@ from autograder.judge.misconceptions import (
     sign_of,
 )
 from autograder.reference import robots
+from dhkit.geometry import modified_dh
 
 HALF = sympy.pi / 2
 MODIFIED, CLASSIC, MIXED = 1, 2, 3
@@ -105,7 +105,7 @@ def screws(rows, *, slides=True, early=False, about_tip=False):
     """Columns (Z_i, O_i x Z_i) of turning joints and (0, Z_i) of sliding ones, shape (6, n)."""
     rows = np.array(rows, dtype=float)
     frames = [np.eye(4)]
-    for step in transforms(*rows.T[1:]):
+    for step in modified_dh(*rows.T[1:]):
         frames.append(frames[-1] @ step)
     centre = frames[-1][:3, 3] if about_tip else np.zeros(3)
     columns = []

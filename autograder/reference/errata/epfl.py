@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 import sympy as sp
 
+from dhkit.geometry import rotation
+
 from .. import catalogue as robots
 from ..elementary import modified_dh
-from ..orientation import euler_matrix, rotation, rpy_matrix
+from ..orientation import euler_matrix, rpy_matrix
 from ..parallel import ThreeRPR, ThreeRRR
 from .proof import Erratum, against, agree, assembled
 
