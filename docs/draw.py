@@ -30,4 +30,4 @@ def rx90(q):
 
 
 save(draw_chain(rx90(Q), frames=(0, 3, 6)), "rx90.png")
-save(draw_posture_gallery([rx90(q) for q in robots.RX90.solve(robots.RX90.forward(REACH_OUT)).q]), "postures.png")
+save(draw_posture_gallery([rx90(q) for q in robots.RX90.inverse(robots.RX90.forward(REACH_OUT)).q]), "postures.png")

@@ -1,33 +1,128 @@
-"""Reference solver: modified DH tables, direct and inverse models of the course's robots.
+"""The reference solver: serial and parallel robots in modified DH, forward and inverse kinematics.
 
-``DHTable`` describes a robot, ``robots`` holds those of the documents. Lengths in metres,
-angles in radians, arrays batch-first: q (..., n), poses (..., 4, 4).
+Lengths in metres, angles in radians, arrays batch-first: q (..., n), poses (..., 4, 4). What follows is its public
+face; everything in it is tested, whether or not a question asks for it.
+
+**Tables.** `DHTable` describes a serial robot, `robots` holds those of the documents; a table comes from classic rows
+or a URDF joint list too, and can be printed (`DHTable.to_markdown`, `DHTable.to_latex`).
+
+>>> import numpy as np
+>>> from autograder.reference import DHTable, robots
+>>> table = DHTable([(0, 0, 0, 0, None), (0, 0.5, 0, 0, None), (0, 0.4, 0, 0, 0)], name="two links")
+>>> table.forward([0, np.pi / 2])[:2, 3].round(3)
+array([0.5, 0.4])
+>>> print(table.to_markdown().splitlines()[2])
+| 1 | 0 | $0$ | $0$ | $0$ | $q_{1}$ |
+>>> table.symbolic_forward()[0, 3], table.inverse_transform().shape
+(0.5*cos(q1) + 0.4*cos(q1 + q2), (4, 4))
+>>> DHTable.from_classic([(0, 0.5, 0, 0, None), (0, 0.4, 0, 0, None)]).forward([0, np.pi / 2])[:2, 3].round(3)
+array([0.5, 0.4])
+
+**Forward and inverse kinematics.** Every real solution, named by its branch, or why there is none; `status` is one of
+the four words of `Status`, in all solvers.
+
+>>> arm = robots.RX90
+>>> postures = arm.inverse(arm.forward(np.radians([20, 40, -30, 50, 60, -70])))
+>>> len(postures), postures.labels[0]
+(8, 'shoulder left, elbow down, wrist unflipped')
+>>> robots.PLANAR_2R.inverse([2.0, 0.0]).reason
+'the point is 0.4 m beyond the reach 1.6 m'
+>>> arm.has_inverse, robots.PUMA_PRINTED.has_inverse
+(True, False)
+
+**Families.** A singular or redundant posture names its free direction; `near` chooses the member that is reported.
+
+>>> aligned = arm.inverse(arm.forward([0.3, 0.4, 0.5, 0.6, 0, 0.7]), near=[0, 0, 0, 1.0, 0, 0.3])
+>>> aligned.status, aligned.free_by_row[0]
+(<Status.INFINITE: 'infinite'>, 'q4 + q6 = const')
+>>> aligned.q[0, [3, 5]].round(3)
+array([1. , 0.3])
+
+**Joint limits and the nearest posture.** With ``limits=True`` only postures within the limits count, in every full
+turn that they allow.
+
+>>> narrow = robots.planar_2r(limits=[(-1.0, 1.0), (0.0, 3.0)])
+>>> narrow.inverse(narrow.forward([0.2, 0.9]), limits=True).q.round(3)
+array([[0.2, 0.9]])
+>>> narrow.nearest(narrow.forward([0.2, 0.9]), q0=[1.0, -1.0]).q.round(3)
+array([ 0.86, -0.9 ])
+
+**Jacobian and singularities.** Rank and determinant tell where freedoms are lost, `mobility` whether the table has
+them at all.
+
+>>> arm.jacobian([0.3, 0.4, 0.5, 0.6, 0.7, 0.8]).shape, int(rank(arm.table, [0.3, 0.4, 0.5, 0.6, 0, 0.8]))
+((6, 6), 5)
+>>> mobility(robots.PUMA_PRINTED.table)
+5
+
+**Workspace.** Clouds of any robot under joint limits, their cross-section and area; exact areas for two links.
+
+>>> half_turn = workspace.RRArm(0.5, 0.4, q1=(0, np.pi), q2=(0, np.pi / 2))
+>>> round(half_turn.area(), 4), round(half_turn.sheet_area(), 4), bool(half_turn.contains([0.0, 0.8]))
+(0.6283, 0.6283, True)
+>>> [len(curve) > 1 for curve in half_turn.boundary(step=0.1)]
+[True, True, True, True]
+>>> workspace.grid(robots.PLANAR_2R, [[-1, 1], [0, 2]], (3, 5)).shape
+(3, 5, 3)
+>>> ranges = np.array([[-3, 3], [-1, 1], [-2, 0], [0, 0], [0, 0], [0, 0]])
+>>> cloud = workspace.cross_section(arm, ranges, 20_000, np.random.default_rng(0))
+>>> cloud.shape, bool(workspace.cells(cloud, 0.02).area > 0.3)
+((20000, 2), True)
+
+**Equations by type.** The equations of Paul's method, types 1, 2, 3, 6, 7 and 8, each with its degenerate cases.
+
+>>> equations.type2(1.0, 1.0, 1.0).values.round(4)
+array([1.5708, 0.    ])
+>>> str(equations.type8(0.5, 0.4, 0.9, 0.0).status)
+'boundary'
+
+**Orientation.** Both triples of all twelve Euler sets, moving or fixed axes, and what is left of them at gimbal lock.
+
+>>> lock = orientation.rpy(orientation.rpy_matrix(0.3, np.pi / 2, 0.1))
+>>> lock.describe(("roll", "pitch", "yaw"))
+'roll - yaw = 0.2 rad, roll + yaw free'
+
+**Parallel robots.** `ThreeRPR` and `ThreeRRR`: the same two words, `forward` and `inverse`.
+
+>>> legs = robots.THREE_RPR.inverse([0.5, 0.4, 0.1])
+>>> int(robots.THREE_RPR.forward(legs).count)
+2
 """
 
 from . import catalogue as robots
+from . import equations, orientation, workspace
 from .catalogue import Robot
 from .centres import epfl_centres, rotation_about, scara_centres
+from .parallel import ThreeRPR, ThreeRRR
 from .singularities import jacobian, mobility, rank
-from .solutions import STATUS, Batch, Nearest, Solutions
+from .solutions import Batch, Nearest, Solutions
+from .status import Failure, Flag, Status
 from .tables import ClassicTable, DHRow, DHTable
 from .urdf import UrdfJoint, table_from_urdf
 
 __all__ = [
-    "STATUS",
     "Batch",
     "ClassicTable",
     "DHRow",
     "DHTable",
+    "Failure",
+    "Flag",
     "Nearest",
     "Robot",
     "Solutions",
+    "Status",
+    "ThreeRPR",
+    "ThreeRRR",
     "UrdfJoint",
     "epfl_centres",
+    "equations",
     "jacobian",
     "mobility",
+    "orientation",
     "rank",
     "robots",
     "rotation_about",
     "scara_centres",
     "table_from_urdf",
+    "workspace",
 ]

@@ -1,27 +1,30 @@
 """The robots of the course's documents, as tables with their inverse models.
 
-Functions build a robot for given lengths (metres); the constants in capitals are the same
-robots with default lengths, made at first use: ``robots.SCARA``, ``robots.scara(a2=0.4)``.
-The parallel robots ``robots.THREE_RPR`` and ``robots.THREE_RRR`` have models of their own kind.
-Joint angles in radians, poses 4x4. Sources are named with each robot.
+Functions build a robot for given lengths (metres, numbers or SymPy expressions) and, with ``limits``, for joint limits:
+one (lower, upper) pair per joint. The constants in capitals are the same robots with default lengths, made at first
+use: ``robots.SCARA``, ``robots.scara(a2=0.4)``. The parallel robots ``robots.THREE_RPR`` and ``robots.THREE_RRR`` have
+models of their own kind. Joint angles in radians, poses 4x4. Sources are named with each robot.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import inspect
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache, cached_property, wraps
+from typing import Any
 
 import numpy as np
 import sympy as sp
+from numpy.typing import ArrayLike
 
-from . import singularities
 from .elbow import ElbowArm, WristAlone, WristedArm
-from .elementary import rot_y, rot_z, trans_x, trans_z
+from .elementary import Entry, rot_y, rot_z, trans_x, trans_z
 from .inverse import TOLERANCE, InverseModel
 from .parallel import ThreeRPR, ThreeRRR
 from .pen import PenArm
 from .planar_arms import PlanarArm, Scara
+from .singularities import jacobian, mobility
 from .solutions import Batch, Nearest, Solutions
 from .tables import DHTable
 from .urdf import UrdfJoint
@@ -29,13 +32,19 @@ from .urdf import UrdfJoint
 _t1, _t2, _t3, _t4, _t5, _t6 = sp.symbols("t1:7")
 _HALF = sp.pi / 2
 
+Limits = Sequence[tuple[float, float]]
+
 
 @dataclass(frozen=True)
 class Robot:
     """A serial robot: a DHm table with values for its letters, and an inverse model.
 
-    table: letters for the lengths as in the documents, and numbers behind them.
-    model: class of the closed-form inverse model, or None where there is none.
+    Attributes
+    ----------
+    table : DHTable
+        Letters for the lengths as in the documents, and numbers behind them.
+    model : subclass of InverseModel, or None
+        The closed-form inverse model; None where there is none.
     """
 
     table: DHTable
@@ -46,114 +55,144 @@ class Robot:
         """What the robot is called."""
         return self.table.name
 
-    @cached_property
-    def inverse(self) -> InverseModel:
-        """The inverse model. Raises ValueError when the robot has none."""
-        if self.model is None:
-            raise ValueError(f"{self.name} has no inverse model: its table is degenerate")
-        return self.model(self.table)
+    @property
+    def has_inverse(self) -> bool:
+        """Whether there is a closed-form inverse model of the robot."""
+        return self.model is not None
 
-    def forward(self, q) -> np.ndarray:
-        """Poses (..., 4, 4) for joint values q (..., n), radians or metres."""
+    @cached_property
+    def inverse_model(self) -> InverseModel:
+        """The inverse model. Raises ValueError, which says why, when the robot has none."""
+        if self.model is not None:
+            return self.model(self.table)
+        joints, freedoms = self.table.chain.joints, mobility(self.table)
+        if freedoms < joints:
+            raise ValueError(f"{self.name} has no inverse model: its {joints} joints give {freedoms} freedoms only")
+        raise ValueError(f"{self.name} has no inverse model in closed form")
+
+    def forward(self, q: ArrayLike) -> np.ndarray:
+        """Forward kinematics: poses (..., 4, 4) for joint values q (..., n), radians or metres."""
         return self.table.forward(q)
 
     def symbolic_forward(self) -> sp.Matrix:
-        """Direct model, 4x4, with letters for joints and lengths, in textbook form."""
+        """Forward kinematics, 4x4, with letters for joints and lengths, in textbook form."""
         return self.table.symbolic_forward()
 
-    def jacobian(self, q) -> np.ndarray:
-        """Geometric Jacobian (..., 6, n) of the tool point at q (..., n)."""
-        return singularities.jacobian(self.table, q)
+    def jacobian(self, q: ArrayLike) -> np.ndarray:
+        """Geometric Jacobian (..., 6, n) of the tool point at q (..., n): see `singularities.jacobian`."""
+        return jacobian(self.table, q)
 
-    def solve(self, T, near=None, tol: float = TOLERANCE, limits: bool = False) -> Solutions:
-        """All postures for a pose (4, 4) or task coordinates: see InverseModel.solve."""
-        return self.inverse.solve(T, near, tol, limits)
+    def inverse(
+        self, T: ArrayLike, near: ArrayLike | None = None, tol: float = TOLERANCE, limits: bool = False
+    ) -> Solutions:
+        """Inverse kinematics: all postures for a pose (4, 4) or task coordinates, see `InverseModel.solve`."""
+        return self.inverse_model.solve(T, near, tol, limits)
 
-    def solve_batch(self, T, near=None, tol: float = TOLERANCE, limits: bool = False) -> Batch:
-        """All postures for N poses: see InverseModel.solve_batch."""
-        return self.inverse.solve_batch(T, near, tol, limits)
+    def inverse_batch(
+        self, T: ArrayLike, near: ArrayLike | None = None, tol: float = TOLERANCE, limits: bool = False
+    ) -> Batch:
+        """Inverse kinematics of N poses at once: see `InverseModel.solve_batch`."""
+        return self.inverse_model.solve_batch(T, near, tol, limits)
 
-    def nearest(self, T, q0, tol: float = TOLERANCE, limits: bool = False) -> Nearest:
-        """The posture nearest to q0 (n,): see InverseModel.nearest."""
-        return self.inverse.nearest(T, q0, tol, limits)
-
-    def nearest_batch(self, T, q0, tol: float = TOLERANCE, limits: bool = False):
-        """Nearest postures for N poses: see InverseModel.nearest_batch."""
-        return self.inverse.nearest_batch(T, q0, tol, limits)
-
-
-def _robot(name: str, model, rows, values, joints=None, limits=None, tool=None) -> Robot:
-    """A robot from symbolic rows; lengths given as sympy expressions go into the table."""
-    letters = {name: v for name, v in values.items() if isinstance(v, sp.Expr)}
-    numbers = {name: v for name, v in values.items() if name not in letters}
-    table = DHTable(rows, name, joints, None, tool, limits, numbers)
-    return Robot(table.at(letters) if letters else table, model)
+    def nearest(self, T: ArrayLike, q0: ArrayLike, tol: float = TOLERANCE, limits: bool = False) -> Nearest:
+        """The posture for a pose that is nearest to q0 (n,): see `InverseModel.nearest`."""
+        return self.inverse_model.nearest(T, q0, tol, limits)
 
 
-def planar_2r(L1: float = 1.0, L2: float = 0.6, limits=None) -> Robot:
+def _with_values(
+    table: DHTable, model: type[InverseModel] | None, lengths: Mapping[str, Entry], limits: Limits | None
+) -> Robot:
+    """A robot from a table in letters. Lengths that are expressions stand in the table, numbers behind it."""
+    expressions = {name: value for name, value in lengths.items() if isinstance(value, sp.Expr)}
+    numbers = {name: value for name, value in lengths.items() if name not in expressions}
+    table = table.with_values(numbers, limits)
+    return Robot(table.at(expressions) if expressions else table, model)
+
+
+def _robot(model: type[InverseModel] | None) -> Callable[[Callable[..., DHTable]], Callable[..., Robot]]:
+    """Turns a function that returns a table into one that returns a robot.
+
+    Its arguments with a number as default are lengths: the table is made with letters of the same names, the numbers
+    are put behind them. A further argument ``limits`` takes joint limits.
+    """
+
+    def decorate(table: Callable[..., DHTable]) -> Callable[..., Robot]:
+        signature = inspect.signature(table)
+        lengths = [name for name, each in signature.parameters.items() if isinstance(each.default, float)]
+
+        @wraps(table)
+        def robot(*args: Any, limits: Limits | None = None, **named: Any) -> Robot:
+            given = signature.bind(*args, **named)
+            given.apply_defaults()
+            letters = {name: sp.Symbol(name) for name in lengths}
+            in_letters = table(**{**given.arguments, **letters})
+            return _with_values(in_letters, model, {name: given.arguments[name] for name in lengths}, limits)
+
+        return robot
+
+    return decorate
+
+
+@_robot(PlanarArm)
+def planar_2r(L1: Entry = 1.0, L2: Entry = 0.6) -> DHTable:
     """Planar two-link arm of the EPFL slides, tool point at L2."""
-    l1, l2 = sp.symbols("L1 L2")
-    rows = [(0, 0, 0, 0, _t1), (0, l1, 0, 0, _t2)]
-    values = {"L1": L1, "L2": L2}
-    return _robot("planar 2R", PlanarArm, rows, values, limits=limits, tool=trans_x(l2))
+    return DHTable([(0, 0, 0, 0, _t1), (0, L1, 0, 0, _t2)], "planar 2R", tool=trans_x(L2))
 
 
-def planar_3r(l1: float = 0.5, l2: float = 0.4, l3: float = 0.2, limits=None) -> Robot:
+def planar_3r(l1: Entry = 0.5, l2: Entry = 0.4, l3: Entry = 0.2, limits: Limits | None = None) -> Robot:
     """Planar three-link arm of the DH-m slides (Romanian), with the tip at l3."""
     return planar((l1, l2, l3), limits)
 
 
-def planar(lengths: Sequence[float], limits=None) -> Robot:
-    """Planar arm with one revolute joint per link; redundant with more than three."""
+def planar(lengths: Sequence[Entry], limits: Limits | None = None) -> Robot:
+    """Planar arm with one revolute joint per link, of lengths l1, l2, ...; redundant with more than three."""
     n = len(lengths)
     joints, letters = sp.symbols(f"t1:{n + 1}"), sp.symbols(f"l1:{n + 1}")
     rows = [(0, a, 0, 0, joint) for a, joint in zip((0, *letters), joints)]
-    values = {letter.name: length for letter, length in zip(letters, lengths)}
-    tool = trans_x(letters[-1])
-    return _robot(f"planar {n}R", PlanarArm, rows, values, limits=limits, tool=tool)
+    table = DHTable(rows, f"planar {n}R", tool=trans_x(letters[-1]))
+    return _with_values(table, PlanarArm, {letter.name: length for letter, length in zip(letters, lengths)}, limits)
 
 
-def scara(a2: float = 0.4, a3: float = 0.3, limits=None) -> Robot:
+@_robot(Scara)
+def scara(a2: Entry = 0.4, a3: Entry = 0.3) -> DHTable:
     """SCARA of the MECA 953 slides; joint 3 is the depth d2 of the quill, downwards."""
-    a2_, a3_, d2 = sp.symbols("a2 a3 d2")
-    rows = [(0, 0, 0, 0, _t1), (0, a2_, 0, 0, _t2), (1, a3_, 0, -d2, 0), (0, 0, 0, 0, _t4)]
-    return _robot("SCARA", Scara, rows, {"a2": a2, "a3": a3}, limits=limits)
+    d2 = sp.Symbol("d2")
+    return DHTable([(0, 0, 0, 0, _t1), (0, a2, 0, 0, _t2), (1, a3, 0, -d2, 0), (0, 0, 0, 0, _t4)], "SCARA")
 
 
-def scara_epfl(L1: float = 0.4, L2: float = 0.3, L4: float = 0.1, limits=None) -> Robot:
+@_robot(Scara)
+def scara_epfl(L1: Entry = 0.4, L2: Entry = 0.3, L4: Entry = 0.1) -> DHTable:
     """SCARA of the EPFL slides with its tool point L4; joint 3 (t3) is the height."""
-    l1, l2, l4 = sp.symbols("L1 L2 L4")
-    rows = [(0, 0, 0, 0, _t1), (0, l1, 0, 0, _t2), (1, l2, 0, _t3, 0), (0, 0, 0, 0, _t4)]
-    values = {"L1": L1, "L2": L2, "L4": L4}
-    return _robot("SCARA with tool", Scara, rows, values, limits=limits, tool=trans_x(l4))
+    rows = [(0, 0, 0, 0, _t1), (0, L1, 0, 0, _t2), (1, L2, 0, _t3, 0), (0, 0, 0, 0, _t4)]
+    return DHTable(rows, "SCARA with tool", tool=trans_x(L4))
 
 
-def adept_s600(d2: float = 0.325, d3: float = 0.275, r30: float = 0.0, limits=None) -> Robot:
+@_robot(Scara)
+def adept_s600(d2: Entry = 0.325, d3: Entry = 0.275, r30: Entry = 0.0) -> DHTable:
     """Adept Cobra s600 of the s600 tutorial, in its letters (d, r); axis 4 points down."""
-    d2_, d3_, r3, r30_ = sp.symbols("d2 d3 r3 r30")
-    rows = [(0, 0, 0, 0, _t1), (0, d2_, 0, 0, _t2), (1, d3_, 0, r3 + r30_, 0), (0, 0, sp.pi, 0, _t4)]
-    values = {"d2": d2, "d3": d3, "r30": r30}
-    return _robot("Adept s600", Scara, rows, values, (_t1, _t2, r3, _t4), limits)
+    r3 = sp.Symbol("r3")
+    rows = [(0, 0, 0, 0, _t1), (0, d2, 0, 0, _t2), (1, d3, 0, r3 + r30, 0), (0, 0, sp.pi, 0, _t4)]
+    return DHTable(rows, "Adept s600", (_t1, _t2, r3, _t4))
 
 
-def rx90(a3: float = 0.45, d3: float = 0.45, limits=None) -> Robot:
+@_robot(WristedArm)
+def rx90(a3: Entry = 0.45, d3: Entry = 0.45) -> DHTable:
     """Stäubli RX-90 of the MECA 953 slides."""
-    a3_, d3_ = sp.symbols("a3 d3")
     rows = [
         (0, 0, 0, 0, _t1),
         (0, 0, _HALF, 0, _t2),
-        (0, a3_, 0, 0, _t3),
-        (0, 0, -_HALF, d3_, _t4),
+        (0, a3, 0, 0, _t3),
+        (0, 0, -_HALF, d3, _t4),
         (0, 0, _HALF, 0, _t5),
         (0, 0, -_HALF, 0, _t6),
     ]
-    return _robot("RX-90", WristedArm, rows, {"a3": a3, "d3": d3}, limits=limits)
+    return DHTable(rows, "RX-90")
 
 
-def spherical_wrist(d6: float = 0.1, limits=None) -> Robot:
+@_robot(WristAlone)
+def spherical_wrist(d6: Entry = 0.1) -> DHTable:
     """Spherical wrist of the MECA 953 slides, its classic rows rewritten in modified DH."""
-    rows = [(0, 0, 0, 0, _t4), (0, 0, -_HALF, 0, _t5), (0, 0, _HALF, sp.Symbol("d6"), _t6)]
-    return _robot("spherical wrist", WristAlone, rows, {"d6": d6}, limits=limits)
+    return DHTable([(0, 0, 0, 0, _t4), (0, 0, -_HALF, 0, _t5), (0, 0, _HALF, d6, _t6)], "spherical wrist")
 
 
 KR210_JOINTS = (
@@ -165,107 +204,93 @@ KR210_JOINTS = (
     UrdfJoint((0.193, 0, 0), axis=(1, 0, 0)),
     UrdfJoint((0.11, 0, 0), kind="fixed"),
 )
+"""Joint list of the KR210 in the MECA 953 slides, with the axes of its public description."""
 
 
+@_robot(WristedArm)
 def kr210(
-    d1: float = 0.75,
-    a1: float = 0.35,
-    a2: float = 1.25,
-    a3: float = -0.054,
-    d4: float = 1.5,
-    grip: float = 0.303,
-    limits=None,
-) -> Robot:
+    d1: Entry = 0.75,
+    a1: Entry = 0.35,
+    a2: Entry = 1.25,
+    a3: Entry = -0.054,
+    d4: Entry = 1.5,
+    grip: Entry = 0.303,
+) -> DHTable:
     """KR210 from the joint list of the MECA 953 slides (axes of its public description).
 
     Its poses are those of the URDF's gripper link: the tool turns the last DHm frame by
     Rot_z(180) Rot_y(-90 degrees).
     """
-    letters = sp.symbols("d1 a1 a2 a3 d4 grip")
-    d1_, a1_, a2_, a3_, d4_, grip_ = letters
     q1, q2, q3, q4, q5, q6 = sp.symbols("q1:7")
     rows = [
-        (0, 0, 0, d1_, q1),
-        (0, a1_, -_HALF, 0, q2 - _HALF),
-        (0, a2_, 0, 0, q3),
-        (0, a3_, -_HALF, d4_, q4),
+        (0, 0, 0, d1, q1),
+        (0, a1, -_HALF, 0, q2 - _HALF),
+        (0, a2, 0, 0, q3),
+        (0, a3, -_HALF, d4, q4),
         (0, 0, _HALF, 0, q5),
         (0, 0, -_HALF, 0, q6),
     ]
-    values = {s.name: v for s, v in zip(letters, (d1, a1, a2, a3, d4, grip))}
-    tool = trans_z(grip_) * rot_z(sp.pi) * rot_y(-_HALF)
-    return _robot("KR210", WristedArm, rows, values, limits=limits, tool=tool)
+    return DHTable(rows, "KR210", tool=trans_z(grip) * rot_z(sp.pi) * rot_y(-_HALF))
 
 
-def epfl_arm(D3: float = 0.2, L2: float = 0.5, D4: float = 0.6, h: float = 0.0, limits=None) -> Robot:
+@_robot(WristedArm)
+def epfl_arm(D3: Entry = 0.2, L2: Entry = 0.5, D4: Entry = 0.6, h: Entry = 0.0) -> DHTable:
     """Six-axis arm of the EPFL slides; tool point at h from the wrist centre.
 
     `centres.epfl_centres` gives the same model as rotations about centres.
     """
-    d3, l2, d4 = sp.symbols("D3 L2 D4")
     rows = [
         (0, 0, 0, 0, _t1 + _HALF),
         (0, 0, _HALF, 0, _t2 + _HALF),
-        (0, l2, 0, d3, _t3 + _HALF),
-        (0, 0, _HALF, d4, _t4 + sp.pi),
+        (0, L2, 0, D3, _t3 + _HALF),
+        (0, 0, _HALF, D4, _t4 + sp.pi),
         (0, 0, _HALF, 0, _t5 + sp.pi),
         (0, 0, _HALF, 0, _t6 + _HALF),
     ]
-    values = {"D3": D3, "L2": L2, "D4": D4, "h": h}
-    tool = trans_z(sp.Symbol("h"))
-    return _robot("EPFL six-axis arm", WristedArm, rows, values, limits=limits, tool=tool)
+    return DHTable(rows, "EPFL six-axis arm", tool=trans_z(h))
 
 
-def elbow_3r(L1: float = 0.5, L2: float = 0.4, limits=None) -> Robot:
+@_robot(ElbowArm)
+def elbow_3r(L1: Entry = 0.5, L2: Entry = 0.4) -> DHTable:
     """Elbow arm of the DH-m slides (Romanian); the last row carries the tool point."""
-    l1, l2 = sp.symbols("L1 L2")
-    rows = [(0, 0, 0, 0, _t1), (0, 0, _HALF, 0, _t2), (0, l1, 0, 0, _t3), (0, l2, 0, 0, 0)]
-    return _robot("elbow 3R", ElbowArm, rows, {"L1": L1, "L2": L2}, limits=limits)
+    return DHTable([(0, 0, 0, 0, _t1), (0, 0, _HALF, 0, _t2), (0, L1, 0, 0, _t3), (0, L2, 0, 0, 0)], "elbow 3R")
 
 
-def puma(
-    a2: float = 0.43,
-    a3: float = 0.02,
-    d2: float = 0.15,
-    d4: float = 0.43,
-    d6: float = 0.06,
-    limits=None,
-) -> Robot:
+@_robot(WristedArm)
+def puma(a2: Entry = 0.43, a3: Entry = 0.02, d2: Entry = 0.15, d4: Entry = 0.43, d6: Entry = 0.06) -> DHTable:
     """PUMA-like arm of the DH-m slides (Romanian), row 6 corrected to alpha = -90 degrees."""
-    return _puma("PUMA-like arm", WristedArm, -_HALF, (a2, a3, d2, d4, d6), limits)
+    return DHTable(_puma_rows(a2, a3, d2, d4, d6, -_HALF), "PUMA-like arm")
 
 
-def puma_printed(a2: float = 0.43, a3: float = 0.02, d2: float = 0.15, d4: float = 0.43, d6: float = 0.06) -> Robot:
+@_robot(None)
+def puma_printed(a2: Entry = 0.43, a3: Entry = 0.02, d2: Entry = 0.15, d4: Entry = 0.43, d6: Entry = 0.06) -> DHTable:
     """PUMA-like arm as printed: row 6 with alpha = 0 puts axis 6 on axis 5.
 
     It has five freedoms instead of six (`singularities.mobility`) and no inverse model.
     """
-    return _puma("PUMA-like arm as printed", None, 0, (a2, a3, d2, d4, d6), None)
+    return DHTable(_puma_rows(a2, a3, d2, d4, d6, 0), "PUMA-like arm as printed")
 
 
-def _puma(name, model, alpha, lengths, limits) -> Robot:
-    letters = sp.symbols("a2 a3 d2 d4 d6")
-    a2, a3, d2, d4, d6 = letters
-    rows = [
+def _puma_rows(a2: Entry, a3: Entry, d2: Entry, d4: Entry, d6: Entry, last_twist: Entry) -> list[tuple]:
+    return [
         (0, 0, 0, 0, _t1),
         (0, 0, -_HALF, 0, _t2),
         (0, a2, 0, d2, _t3),
         (0, a3, -_HALF, d4, _t4),
         (0, 0, _HALF, 0, _t5),
-        (0, 0, alpha, d6, _t6),
+        (0, 0, last_twist, d6, _t6),
     ]
-    values = {letter.name: length for letter, length in zip(letters, lengths)}
-    return _robot(name, model, rows, values, limits=limits)
 
 
+@_robot(PenArm)
 def pen(
-    h1: float = 0.1,
-    L1: float = 0.3,
-    h2: float = 0.12,
-    L2: float = 0.08,
-    p1: float = 0.5,
+    h1: Entry = 0.1,
+    L1: Entry = 0.3,
+    h2: Entry = 0.12,
+    L2: Entry = 0.08,
+    p1: Entry = 0.5,
     reading: str = "printed",
-) -> Robot:
+) -> DHTable:
     """Pen robot as printed, or with its remark on the parallelogram read in one of three ways.
 
     reading: "printed" (joint 2 enters as t2 - pi/2), "A" (t2 - t1 - pi/2), "B" (t2 - t1 - pi:
@@ -280,27 +305,16 @@ def pen(
     }
     if reading not in entries:
         raise ValueError(f"reading must be one of {', '.join(entries)}, found {reading!r}")
-    h1_, l1, h2_, l2, p1_ = sp.symbols("h1 L1 h2 L2 p1")
-    rows = [(0, 0, 0, h1_, _t1), (0, l1, -_HALF, h2_, entries[reading]), (0, 0, 0, l2, _t3)]
-    values = {"h1": h1, "L1": L1, "h2": h2, "L2": L2, "p1": p1}
+    rows = [(0, 0, 0, h1, _t1), (0, L1, -_HALF, h2, entries[reading]), (0, 0, 0, L2, _t3)]
     name = "pen robot" if reading == "printed" else f"pen robot, reading {reading}"
-    return _robot(name, PenArm, rows, values, (_t1, _t2, _t3), tool=trans_x(p1_))
+    return DHTable(rows, name, (_t1, _t2, _t3), tool=trans_x(p1))
 
 
-def pen_repaired(
-    h1: float = 0.1,
-    L1: float = 0.3,
-    h2: float = 0.2,
-    L2: float = 0.25,
-    p1: float = 0.5,
-    limits=None,
-) -> Robot:
+@_robot(ElbowArm)
+def pen_repaired(h1: Entry = 0.1, L1: Entry = 0.3, h2: Entry = 0.2, L2: Entry = 0.25, p1: Entry = 0.5) -> DHTable:
     """Pen robot with L2 taken as a link length: a hypothetical repair, three real freedoms."""
-    h1_, l1, h2_, l2, p1_ = sp.symbols("h1 L1 h2 L2 p1")
-    rows = [(0, 0, 0, h1_, _t1), (0, l1, -_HALF, h2_, _t2 - _HALF), (0, l2, 0, 0, _t3)]
-    values = {"h1": h1, "L1": L1, "h2": h2, "L2": L2, "p1": p1}
-    tool = trans_x(p1_)
-    return _robot("pen robot, repaired", ElbowArm, rows, values, limits=limits, tool=tool)
+    rows = [(0, 0, 0, h1, _t1), (0, L1, -_HALF, h2, _t2 - _HALF), (0, L2, 0, 0, _t3)]
+    return DHTable(rows, "pen robot, repaired", tool=trans_x(p1))
 
 
 _DEFAULTS: dict[str, Callable[[], Robot]] = {

@@ -1,4 +1,4 @@
-"""Direct models as rotations about centres (EPFL slides): no frames, only fixed points.
+"""Forward kinematics as rotations about centres (EPFL slides): no frames, only fixed points.
 
 Every joint turns the whole arm about a point that is known in the reference posture. The
 matrices multiply with the last joint nearest to the point, so that each turn finds its
@@ -7,12 +7,14 @@ centre still in the reference position: ``P = K1 K2 ... Kn P0``.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import sympy as sp
 
-from .elementary import rot_x, rot_z
+from .elementary import Entry, rot_x, rot_z
 
 
-def rotation_about(turn: sp.Matrix, centre) -> sp.Matrix:
+def rotation_about(turn: sp.Matrix, centre: Sequence[Entry]) -> sp.Matrix:
     """A rotation about a centre instead of the origin: [R, p - R p; 0, 1].
 
     turn: 3x3 rotation with centre (3,), or 2x2 with centre (2,); metres. Returns 4x4 or 3x3.
@@ -22,7 +24,7 @@ def rotation_about(turn: sp.Matrix, centre) -> sp.Matrix:
     return turn.row_join(centre - turn * centre).col_join(sp.Matrix([[0] * size + [1]]))
 
 
-def scara_centres(joints, lengths) -> list[sp.Matrix]:
+def scara_centres(joints: Sequence[Entry], lengths: Sequence[Entry]) -> list[sp.Matrix]:
     """The planar 3x3 rotations of the SCARA: joints (t1, t2, t4), lengths (L1, L2).
 
     Their product times [L1 + L2 + L4, 0, 1] is the tool point.
@@ -35,13 +37,13 @@ def scara_centres(joints, lengths) -> list[sp.Matrix]:
     return matrices
 
 
-def epfl_centres(joints, D3, L2, D4) -> list[sp.Matrix]:
+def epfl_centres(joints: Sequence[Entry], D3: Entry, L2: Entry, D4: Entry) -> list[sp.Matrix]:
     """[K1, ..., K6] of the six-axis arm, 4x4; joints t1 to t6, lengths in metres.
 
     In the reference posture the axes point along z, x, x, z, x, z through the origin, the
     origin, [0, 0, L2], [D3, 0, .], [., 0, L2 + D4] and [D3, 0, .]. The figure with the sense
     of rotation is lost: positive about +z and +x, as in the printed K5 and K6.
     """
-    centres = [[0, 0, 0], [0, 0, 0], [0, 0, L2], [D3, 0, 0], [0, 0, L2 + D4], [D3, 0, 0]]
+    centres: list[list[Entry]] = [[0, 0, 0], [0, 0, 0], [0, 0, L2], [D3, 0, 0], [0, 0, L2 + D4], [D3, 0, 0]]
     turns = (rot_z, rot_x, rot_x, rot_z, rot_x, rot_z)
     return [rotation_about(turn(joint)[:3, :3], centre) for turn, joint, centre in zip(turns, joints, centres)]

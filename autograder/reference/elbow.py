@@ -9,57 +9,69 @@ constant rotations.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from dhkit.geometry import phasor, two_link
 
-from .inverse import Answer, InverseModel, JointMap, outside_limits, translations
-from .marks import (
-    FOLDED,
-    FOLDED_LINE,
-    FREE_FIRST,
-    FREE_LINE,
-    FREE_PLANE,
-    SIDEWAYS,
-    STRETCHED,
-    two_link_marks,
-)
+from .inverse import Branches, InverseModel, JointMap, translations
+from .limits import outside_limits
 from .shoulder import Shoulder, shoulder
-from .solutions import BEYOND, INSIDE, LIMITED, NOTHING, OFF, SHORT
+from .status import Failure, Flag, two_link_flags
 from .tables import DHTable
 
 _ALIGNED = 1e-9  # sine of the angle between axes 4 and 6 under which they count as aligned
 
 
 class Postures(NamedTuple):
-    """Arm postures: axes shoulder branch (2), elbow branch (2), poses (N).
+    """Arm postures, with the axes shoulder branch (2), elbow branch (2), poses (N).
 
-    first (2, N), second and third (2, 2, N): theta_1 to theta_3 of the table, radians.
-    first_turn = e^{i theta_1}, fore_turn = e^{i (theta_2 + theta_3)}. The rest as in Answer.
+    Attributes
+    ----------
+    first : (2, N) array
+        theta_1, radians.
+    second, third : (2, 2, N) arrays
+        theta_2 and theta_3, radians.
+    first_phasor, fore_phasor : complex arrays
+        e^{i theta_1}, (2, N), and e^{i (theta_2 + theta_3)}, (2, 2, N).
+    valid, flags : (2, 2, N) arrays
+    excess, failure : (N,) arrays
+        As in `inverse.Branches`.
     """
 
     first: np.ndarray
     second: np.ndarray
     third: np.ndarray
-    first_turn: np.ndarray
-    fore_turn: np.ndarray
+    first_phasor: np.ndarray
+    fore_phasor: np.ndarray
     valid: np.ndarray
-    marks: np.ndarray
-    miss: np.ndarray
-    cause: np.ndarray
+    flags: np.ndarray
+    excess: np.ndarray
+    failure: np.ndarray
 
 
 @dataclass(frozen=True)
 class ArmGeometry:
     """The first three rows of an elbow arm and its tip, seen from frame 1.
 
-    to_arm: 4x4, from the world to frame 1 at theta_1 = 0. side: +-1, the sense of axis 2
-    (sine of alpha_1). out: a_1, from axis 1 to axis 2, metres. upper: a_2, metres. fore: the
-    tip (tool point or wrist centre) in frame 3 as a complex number x + iy, metres. offset:
-    lateral distance of the arm plane along y_1. size: sum of the lengths, for tolerances.
+    Attributes
+    ----------
+    to_arm : (4, 4) array
+        From the world to frame 1 at theta_1 = 0.
+    side : float
+        +1 or -1, the sense of axis 2 (sine of alpha_1).
+    out, upper : float
+        a_1, from axis 1 to axis 2, and a_2, metres.
+    fore : complex
+        The tip (tool point or wrist centre) in frame 3 as x + iy, metres.
+    offset : float
+        Lateral distance of the arm plane along y_1, metres.
+    size : float
+        Sum of the lengths, metres, for tolerances.
     """
 
     to_arm: np.ndarray
@@ -88,7 +100,7 @@ class ArmGeometry:
         to_arm = np.linalg.inv(chain.base @ chain.row_matrix(0, 0.0))
         return cls(to_arm, side, chain.a[1], chain.a[2], fore, offset, size)
 
-    def in_plane(self, point: np.ndarray, anchor, tol: float) -> tuple[Shoulder, np.ndarray]:
+    def in_plane(self, point: np.ndarray, anchor: ArrayLike, tol: float) -> tuple[Shoulder, np.ndarray]:
         """Shoulder branches and the tip in the arm's plane, complex, (2, N).
 
         point: (3, N), metres, in frame 1 at theta_1 = 0. anchor: theta_1 where it is free.
@@ -97,7 +109,7 @@ class ArmGeometry:
         tip = (branches.radius - self.out) + 1j * (self.side * point[2])
         return branches, tip
 
-    def postures(self, point: np.ndarray, anchors, tol: float) -> Postures:
+    def postures(self, point: np.ndarray, anchors: Sequence[ArrayLike], tol: float) -> Postures:
         """All postures that bring the tip to a point (3, N); arguments as for in_plane.
 
         anchors: theta_1 and theta_2 where they are free.
@@ -105,30 +117,33 @@ class ArmGeometry:
         branches, tip = self.in_plane(point, anchors[0], tol)
         upper_phase = np.angle(self.upper)
         fore_phase = np.angle(self.fore)
-        arm = two_link(tip, abs(self.upper), abs(self.fore), anchors[1] + upper_phase, tol)
+        arm = two_link(tip, abs(self.upper), abs(self.fore), np.asarray(anchors[1]) + upper_phase, tol)
         outside = np.maximum(arm.beyond, arm.short)
         nearer = outside.argmin(axis=0)
         columns = np.arange(tip.shape[-1])
         first, bend, first_turn, bend_turn, reached = (by_elbow.swapaxes(0, 1) for by_elbow in arm[:5])
         valid = reached & branches.valid[:, None]
-        miss, cause = outside[nearer, columns], np.where(arm.beyond > arm.short, BEYOND, SHORT)[nearer, columns]
+        excess, failure = (
+            outside[nearer, columns],
+            np.where(arm.beyond > arm.short, Failure.BEYOND, Failure.SHORT)[nearer, columns],
+        )
         inside = ~branches.valid[0]
-        miss = np.where(inside, branches.inside, miss)
-        cause = np.where(inside, INSIDE, cause)
+        excess = np.where(inside, branches.inside, excess)
+        failure = np.where(inside, Failure.INSIDE, failure)
         solved = valid.any(axis=(0, 1))
         return Postures(
-            first=np.angle(branches.turn),
+            first=np.angle(branches.phasor),
             second=first - upper_phase,
             third=bend + (upper_phase - fore_phase),
-            first_turn=branches.turn,
-            fore_turn=first_turn * bend_turn * phasor(-fore_phase),
+            first_phasor=branches.phasor,
+            fore_phasor=first_turn * bend_turn * phasor(-fore_phase),
             valid=valid,
-            marks=np.broadcast_to((two_link_marks(arm) | branches.marks)[:, None], valid.shape),
-            miss=np.where(solved, 0.0, miss),
-            cause=np.where(solved, NOTHING, cause),
+            flags=np.broadcast_to((two_link_flags(arm) | branches.flags)[:, None], valid.shape),
+            excess=np.where(solved, 0.0, excess),
+            failure=np.where(solved, Failure.NONE, failure),
         )
 
-    def label(self, branch: int, marks: int) -> str:
+    def label(self, branch: int, flags: int) -> str:
         """Shoulder and elbow of arm branch 0 to 3 in words.
 
         Left: the tip lies on the side that x_1 points to. Right: axis 1 has turned round and
@@ -137,30 +152,30 @@ class ArmGeometry:
         """
         right, second = divmod(branch, 2)
         side = "right" if right else "left"
-        if marks & FREE_FIRST:
+        if flags & Flag.FREE_FIRST:
             side = "free"
-        elif marks & SIDEWAYS:
+        elif flags & Flag.SIDEWAYS:
             side = "sideways"
         bent_up = (self.side > 0) == (bool(second) != bool(right))
         elbow = "up" if bent_up else "down"
-        if marks & STRETCHED:
+        if flags & Flag.STRETCHED:
             elbow = "stretched"
-        elif marks & (FOLDED | FREE_PLANE):
+        elif flags & (Flag.FOLDED | Flag.FREE_PLANE):
             elbow = "folded"
         return f"shoulder {side}, elbow {elbow}"
 
-    def unreachable(self, target: str, cause: int, miss: float) -> str:
+    def unreachable(self, target: str, failure: Failure, excess: float) -> str:
         """Why the tip, called target, cannot be reached, in words."""
-        if cause == INSIDE:
+        if failure == Failure.INSIDE:
             return (
-                f"the {target} is {miss:.3g} m inside the cylinder of radius "
+                f"the {target} is {excess:.3g} m inside the cylinder of radius "
                 f"{abs(self.offset):.3g} m about axis 1 that the lateral offset leaves out"
             )
-        if cause == BEYOND:
+        if failure == Failure.BEYOND:
             reach = abs(self.upper) + abs(self.fore)
-            return f"the {target} is {miss:.3g} m beyond the reach {reach:.3g} m of the elbow"
+            return f"the {target} is {excess:.3g} m beyond the reach {reach:.3g} m of the elbow"
         inner = abs(abs(self.upper) - abs(self.fore))
-        return f"the {target} is {miss:.3g} m inside the inner limit {inner:.3g} m of the elbow"
+        return f"the {target} is {excess:.3g} m inside the inner limit {inner:.3g} m of the elbow"
 
 
 class ElbowArm(InverseModel):
@@ -172,43 +187,43 @@ class ElbowArm(InverseModel):
     """
 
     task = "x, y, z"
-    joints = 3
-    branches = 4
-    revolute = [0, 1, 2]
-    anchors = {FREE_FIRST: (0,), FREE_PLANE: (1,)}
+    expected_joints = 3
+    branch_count = 4
+    revolute = (0, 1, 2)
 
-    def __init__(self, table: DHTable):
+    def __init__(self, table: DHTable) -> None:
         super().__init__(table)
+        self.anchors = {Flag.FREE_FIRST: (0,), Flag.FREE_PLANE: (1,)}
         self.arm = ArmGeometry.of(table, table.chain.tail(2)[:3, 3])
         self.map = JointMap.of(table.chain)
         if not (self.arm.upper and self.arm.fore):
             raise ValueError("an elbow arm needs an upper arm and a forearm")
 
-    def pose(self, task):
+    def pose(self, task: np.ndarray) -> np.ndarray:
         return translations(task)
 
-    def kernel(self, poses, near, tol):
+    def closed_form(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Branches:
         point = self.arm.to_arm[:3] @ poses[:, :, 3].T
         arm = self.arm.postures(point, [self.map.row(i, near) for i in (0, 1)], tol)
         q = np.empty((3, 2, 2, len(poses)))
         q[0] = self.map.joint(0, arm.first)[:, None]
         q[1] = self.map.joint(1, arm.second)
         q[2] = self.map.joint(2, arm.third)
-        return Answer(
+        return Branches(
             q.reshape(3, 4, -1),
             arm.valid.reshape(4, -1),
-            arm.marks.reshape(4, -1),
-            arm.miss,
-            arm.cause,
+            arm.flags.reshape(4, -1),
+            arm.excess,
+            arm.failure,
         )
 
-    def label(self, branch, marks):
-        return self.arm.label(branch, marks)
+    def label(self, branch: int, flags: int) -> str:
+        return self.arm.label(branch, flags)
 
-    def unreachable(self, cause, miss):
-        if cause == LIMITED:
-            return outside_limits(miss)
-        return self.arm.unreachable("point", cause, miss)
+    def unreachable(self, failure: Failure, excess: float) -> str:
+        if failure == Failure.LIMITED:
+            return outside_limits(excess)
+        return self.arm.unreachable("point", failure, excess)
 
 
 @dataclass(frozen=True)
@@ -220,9 +235,18 @@ class Wrist:
     u5 = -s4 theta_5, u6 = -s4 s5 theta_6 (s the sines), and a half turn about x remains
     behind when s4 = s5.
 
-    cos_alpha, sin_alpha: of alpha_3, from the forearm to axis 4. signs: of u5, u6 in theta_5
-    and theta_6. to_hand: 4x4 constant, the tool to the frame at the wrist centre.
-    joints: of the whole robot; first: index of theta_4.
+    Attributes
+    ----------
+    cos_alpha, sin_alpha : float
+        Of alpha_3, from the forearm to axis 4.
+    signs : pair of +1 or -1
+        Of u5, u6 in theta_5 and theta_6.
+    to_hand : (4, 4) array
+        Constant, from the tool to the frame at the wrist centre.
+    joints : JointMap
+        Of the whole robot.
+    first : int
+        Index of theta_4.
     """
 
     cos_alpha: float
@@ -256,13 +280,24 @@ class Wrist:
             first,
         )
 
-    def solve(self, x, y, z, near):
+    def solve(
+        self, x: Sequence[np.ndarray], y: Sequence[np.ndarray], z: Sequence[np.ndarray], near: np.ndarray | None
+    ) -> tuple[list[np.ndarray], np.ndarray]:
         """Joint values of both wrist branches.
 
-        x, y, z: rows of the hand's rotation seen from the forearm frame, before alpha_3; each
-        a triple (s, n, a) of arrays (...). near: (n, N) or None. Returns three arrays
-        (2, ...), branch 0 with the middle joint in [0, pi] (if its offset is a multiple of
-        pi), and the marks (...).
+        Parameters
+        ----------
+        x, y, z : sequences of three (...) arrays
+            Rows (s, n, a) of the hand's rotation seen from the forearm frame, before alpha_3.
+        near : (n, N) array, or None
+            Joint values to keep where they are free, radians.
+
+        Returns
+        -------
+        list of three (2, ...) arrays
+            Joint values, radians; branch 0 has the middle joint in [0, pi] (if its offset is a multiple of pi).
+        (...) uint8 array
+            `Flag` bits.
         """
         ca, sa = self.cos_alpha, self.sin_alpha
         m13, m23, m33 = x[2], ca * y[2] + sa * z[2], ca * z[2] - sa * y[2]
@@ -282,7 +317,7 @@ class Wrist:
         m11, m21 = x[0], ca * y[0] + sa * z[0]
         m12, m22 = x[1], ca * y[1] + sa * z[1]
         u6 = np.arctan2(c4 * m21 - s4 * m11, c4 * m22 - s4 * m12)
-        marks = np.where(aligned, np.where(m33 < 0, FREE_LINE | FOLDED_LINE, FREE_LINE), 0)
+        flags = np.where(aligned, np.where(m33 < 0, Flag.FREE_LINE | Flag.FOLDED_LINE, Flag.FREE_LINE), 0)
         both = [
             np.stack([self._joint(i, sign * first), self._joint(i, sign * second)])
             for i, sign, first, second in (
@@ -291,9 +326,9 @@ class Wrist:
                 (2, self.signs[1], u6, u6 + np.pi),
             )
         ]
-        return both, marks.astype(np.uint8)
+        return both, flags.astype(np.uint8)
 
-    def _joint(self, index, row):
+    def _joint(self, index: int, row: float | np.ndarray) -> np.ndarray:
         return self.joints.joint(self.first + index, row)
 
     @property
@@ -306,10 +341,10 @@ class Wrist:
         sign = int(self.joints.sign[i] * self.joints.sign[j] * self.signs[1])
         return i, j, sign, -sign
 
-    def label(self, flipped: int, marks: int) -> str:
+    def label(self, flipped: int, flags: int) -> str:
         """The wrist branch in words; straight when axis 6 points along axis 4."""
-        if marks & FREE_LINE:
-            opposite = bool(marks & FOLDED_LINE) != (self.signs[1] < 0)
+        if flags & Flag.FREE_LINE:
+            opposite = bool(flags & Flag.FOLDED_LINE) != (self.signs[1] < 0)
             return "wrist folded" if opposite else "wrist straight"
         return "wrist flipped" if flipped else "wrist unflipped"
 
@@ -322,13 +357,13 @@ class WristedArm(InverseModel):
     Where axes 4 and 6 are aligned the two wrist branches are one family, kept as the first.
     """
 
-    joints = 6
-    branches = 8
-    revolute = [0, 1, 2, 3, 4, 5]
-    anchors = {FREE_FIRST: (0,), FREE_PLANE: (1,)}
+    expected_joints = 6
+    branch_count = 8
+    revolute = (0, 1, 2, 3, 4, 5)
 
-    def __init__(self, table: DHTable):
+    def __init__(self, table: DHTable) -> None:
         super().__init__(table)
+        self.anchors = {Flag.FREE_FIRST: (0,), Flag.FREE_PLANE: (1,)}
         chain = table.chain
         self.arm = ArmGeometry.of(table, chain.row_matrix(3, 0.0)[:3, 3])
         self.map = JointMap.of(chain)
@@ -337,12 +372,12 @@ class WristedArm(InverseModel):
         if not (self.arm.upper and self.arm.fore):
             raise ValueError("an elbow arm needs an upper arm and a forearm")
 
-    def kernel(self, poses, near, tol):
+    def closed_form(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Branches:
         hand = self.arm.to_arm @ poses @ self.wrist.to_hand
         s, n, a, centre = np.ascontiguousarray(hand[:, :3].transpose(2, 1, 0))
         arm = self.arm.postures(centre, [self.map.row(i, near) for i in (0, 1)], tol)
         # The hand's axes seen from frame 1, then from frame 3.
-        back1, back3 = np.conj(arm.first_turn), np.conj(arm.fore_turn)
+        back1, back3 = np.conj(arm.first_phasor), np.conj(arm.fore_phasor)
         side = self.arm.side
         x, y, z = [], [], []
         for axis in (s, n, a):
@@ -351,7 +386,7 @@ class WristedArm(InverseModel):
             x.append(plane.real)
             y.append(plane.imag)
             z.append((-side * flat.imag)[:, None])
-        (q4, q5, q6), wrist_marks = self.wrist.solve(x, y, z, near)
+        (q4, q5, q6), wrist_flags = self.wrist.solve(x, y, z, near)
         q = np.empty((6, 2, 2, 2, len(poses)))
         q[0] = self.map.joint(0, arm.first)[:, None, None]
         q[1] = self.map.joint(1, arm.second)[:, :, None]
@@ -359,17 +394,17 @@ class WristedArm(InverseModel):
         for i, both in enumerate((q4, q5, q6)):
             q[3 + i] = np.moveaxis(both, 0, 2)
         valid = np.repeat(arm.valid[:, :, None], 2, axis=2)
-        valid[:, :, 1] &= wrist_marks == 0
-        marks = np.repeat((arm.marks | wrist_marks)[:, :, None], 2, axis=2)
-        return Answer(q.reshape(6, 8, -1), valid.reshape(8, -1), marks.reshape(8, -1), arm.miss, arm.cause)
+        valid[:, :, 1] &= wrist_flags == 0
+        flags = np.repeat((arm.flags | wrist_flags)[:, :, None], 2, axis=2)
+        return Branches(q.reshape(6, 8, -1), valid.reshape(8, -1), flags.reshape(8, -1), arm.excess, arm.failure)
 
-    def label(self, branch, marks):
-        return f"{self.arm.label(branch // 2, marks)}, {self.wrist.label(branch % 2, marks)}"
+    def label(self, branch: int, flags: int) -> str:
+        return f"{self.arm.label(branch // 2, flags)}, {self.wrist.label(branch % 2, flags)}"
 
-    def unreachable(self, cause, miss):
-        if cause == LIMITED:
-            return outside_limits(miss)
-        return self.arm.unreachable("wrist centre", cause, miss)
+    def unreachable(self, failure: Failure, excess: float) -> str:
+        if failure == Failure.LIMITED:
+            return outside_limits(excess)
+        return self.arm.unreachable("wrist centre", failure, excess)
 
 
 class WristAlone(InverseModel):
@@ -379,13 +414,13 @@ class WristAlone(InverseModel):
     position of a pose must be the one that its orientation implies.
     """
 
-    joints = 3
-    branches = 2
-    revolute = [0, 1, 2]
-    anchors = {}
+    expected_joints = 3
+    branch_count = 2
+    revolute = (0, 1, 2)
 
-    def __init__(self, table: DHTable):
+    def __init__(self, table: DHTable) -> None:
         super().__init__(table)
+        self.anchors = {}
         chain = table.chain
         self.wrist = Wrist.of(table, first=0)
         self.line = self.wrist.line
@@ -394,21 +429,21 @@ class WristAlone(InverseModel):
         self._to_centre[:3, 3] += chain.base[:3, :3] @ first[:3, 3]
         self._to_centre = np.linalg.inv(self._to_centre)
 
-    def kernel(self, poses, near, tol):
+    def closed_form(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Branches:
         hand = self._to_centre @ poses @ self.wrist.to_hand
         x, y, z = np.ascontiguousarray(hand[:, :3, :3].transpose(1, 2, 0))
-        both, marks = self.wrist.solve(x, y, z, near)
-        miss = np.sqrt((hand[:, :3, 3] ** 2).sum(axis=1))
-        valid = np.repeat((miss <= tol)[None], 2, axis=0)
-        cause = np.where(valid[0], NOTHING, OFF)
-        miss = np.where(valid[0], 0.0, miss)
-        valid[1] &= marks == 0
-        return Answer(np.stack(both), valid, np.stack([marks, marks]), miss, cause)
+        both, flags = self.wrist.solve(x, y, z, near)
+        excess = np.sqrt((hand[:, :3, 3] ** 2).sum(axis=1))
+        valid = np.repeat((excess <= tol)[None], 2, axis=0)
+        failure = np.where(valid[0], Failure.NONE, Failure.OFF)
+        excess = np.where(valid[0], 0.0, excess)
+        valid[1] &= flags == 0
+        return Branches(np.stack(both), valid, np.stack([flags, flags]), excess, failure)
 
-    def label(self, branch, marks):
-        return self.wrist.label(branch, marks)
+    def label(self, branch: int, flags: int) -> str:
+        return self.wrist.label(branch, flags)
 
-    def unreachable(self, cause, miss):
-        if cause == LIMITED:
-            return outside_limits(miss)
-        return f"the wrist centre is {miss:.3g} m away from where the three axes meet"
+    def unreachable(self, failure: Failure, excess: float) -> str:
+        if failure == Failure.LIMITED:
+            return outside_limits(excess)
+        return f"the wrist centre is {excess:.3g} m away from where the three axes meet"

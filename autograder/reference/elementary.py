@@ -9,41 +9,45 @@ Lengths in metres, angles in radians; entries may be numbers or sympy expression
 from __future__ import annotations
 
 import math
+from typing import TypeAlias
 
 import sympy as sp
+
+Entry: TypeAlias = float | sp.Expr
+"""A number or a SymPy expression."""
 
 _ROUND_ANGLE = 12  # floats within 1e-12 of a multiple of pi/12 (15 degrees) are meant exactly
 
 
-def trans_x(a) -> sp.Matrix:
+def trans_x(a: Entry) -> sp.Matrix:
     """Translation by a metres along x."""
     return sp.Matrix([[1, 0, 0, a], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
 
 
-def trans_z(d) -> sp.Matrix:
+def trans_z(d: Entry) -> sp.Matrix:
     """Translation by d metres along z."""
     return sp.Matrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, d], [0, 0, 0, 1]])
 
 
-def rot_x(alpha) -> sp.Matrix:
+def rot_x(alpha: Entry) -> sp.Matrix:
     """Rotation by alpha radians about x."""
     c, s = sp.cos(alpha), sp.sin(alpha)
     return sp.Matrix([[1, 0, 0, 0], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, 1]])
 
 
-def rot_y(beta) -> sp.Matrix:
+def rot_y(beta: Entry) -> sp.Matrix:
     """Rotation by beta radians about y."""
     c, s = sp.cos(beta), sp.sin(beta)
     return sp.Matrix([[c, 0, s, 0], [0, 1, 0, 0], [-s, 0, c, 0], [0, 0, 0, 1]])
 
 
-def rot_z(theta) -> sp.Matrix:
+def rot_z(theta: Entry) -> sp.Matrix:
     """Rotation by theta radians about z."""
     c, s = sp.cos(theta), sp.sin(theta)
     return sp.Matrix([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
 
 
-def modified_dh(a, alpha, d, theta) -> sp.Matrix:
+def modified_dh(a: Entry, alpha: Entry, d: Entry, theta: Entry) -> sp.Matrix:
     """Modified DH matrix, multiplied out: frame i seen from frame i-1."""
     ca, sa, c, s = sp.cos(alpha), sp.sin(alpha), sp.cos(theta), sp.sin(theta)
     return sp.Matrix(
@@ -56,7 +60,7 @@ def modified_dh(a, alpha, d, theta) -> sp.Matrix:
     )
 
 
-def modified_dh_inverse(a, alpha, d, theta) -> sp.Matrix:
+def modified_dh_inverse(a: Entry, alpha: Entry, d: Entry, theta: Entry) -> sp.Matrix:
     """Inverse of the modified DH matrix: frame i-1 seen from frame i."""
     ca, sa, c, s = sp.cos(alpha), sp.sin(alpha), sp.cos(theta), sp.sin(theta)
     return sp.Matrix(
@@ -69,7 +73,7 @@ def modified_dh_inverse(a, alpha, d, theta) -> sp.Matrix:
     )
 
 
-def classic_dh(a, alpha, d, theta) -> sp.Matrix:
+def classic_dh(a: Entry, alpha: Entry, d: Entry, theta: Entry) -> sp.Matrix:
     """Classic DH matrix, multiplied out, with the parameters a_i, alpha_i, d_i, theta_i."""
     ca, sa, c, s = sp.cos(alpha), sp.sin(alpha), sp.cos(theta), sp.sin(theta)
     return sp.Matrix(
@@ -82,14 +86,14 @@ def classic_dh(a, alpha, d, theta) -> sp.Matrix:
     )
 
 
-def rigid_inverse(transform) -> sp.Matrix:
+def rigid_inverse(transform: sp.Matrix) -> sp.Matrix:
     """Inverse of a 4x4 rigid transform, without elimination: [R^T, -R^T p; 0, 1]."""
     transform = sp.Matrix(transform)
     turn = transform[:3, :3].T
     return turn.row_join(-turn * transform[:3, 3]).col_join(sp.Matrix([[0, 0, 0, 1]]))
 
 
-def exact_angle(angle) -> sp.Expr:
+def exact_angle(angle: Entry) -> sp.Expr:
     """The angle with its constant part exact: a float near k*pi/12 becomes k*pi/12.
 
     A float pi/2 hides every zero of cos and sin from sympy, which costs minutes later on.

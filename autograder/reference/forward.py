@@ -1,4 +1,4 @@
-"""Direct geometric models: textbook symbolic form, and a vectorised numeric kernel.
+"""Forward kinematics: symbolic in textbook form, and numeric for arrays of joint values.
 
 Both use the same idea: consecutive parallel axes are merged before anything is multiplied
 out. In a run of parallel (or opposite) axes the angles add up, so the run is one plane
@@ -7,20 +7,29 @@ displacement, and cos(t2 + t3) appears as such instead of being rediscovered aft
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 import sympy as sp
+from numpy.typing import ArrayLike
 
 from dhkit.geometry import modified_dh_of_cosines
 
 from .elementary import rot_x, trans_x
 
+if TYPE_CHECKING:
+    from .tables import DHRow
+
+Vectors = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+"""The axes x, y, z of a frame and its origin p, each (3, 1) or (3, N)."""
+
 _BLOCK = 4096  # poses treated at a time, so that the intermediate arrays stay in the cache
 
 
-def recursion(rows, tool) -> list[sp.Matrix]:
+def recursion(rows: Sequence[DHRow], tool: sp.Matrix) -> list[sp.Matrix]:
     """The list [U_0, ..., U_n] with U_n = tool and U_{j-1} = j-1Tj U_j.
 
     Source: MECA 953 slides, "calcul de U_j". Every U_j is in textbook form: products are
@@ -33,14 +42,14 @@ def recursion(rows, tool) -> list[sp.Matrix]:
     return [below[j] for j in range(len(rows) + 1)]
 
 
-def _end_of_parallel_run(rows, start: int) -> int:
+def _end_of_parallel_run(rows: Sequence[DHRow], start: int) -> int:
     end = start + 1
     while end < len(rows) and sp.cos(rows[end].alpha) in (1, -1):
         end += 1
     return end
 
 
-def _merge(rows) -> sp.Matrix:
+def _merge(rows: Sequence[DHRow]) -> sp.Matrix:
     """Product of rows whose axes are all parallel or opposite to the first one."""
     first, *others = rows
     angle, x, y, z, up = first.theta, sp.S.Zero, sp.S.Zero, first.d, sp.S.One
@@ -63,9 +72,17 @@ class Chain:
     ``(coupling @ q + offset)[i]``, which covers joint offsets, reversed joints
     (d_3 = -d_2 of the SCARA), constant tool rows and coupled joints.
 
-    Attributes: ``a, cos_alpha, sin_alpha, fixed`` of shape (rows,), metres and radians,
-    where ``fixed`` is the constant one of d_i and theta_i; ``prismatic`` (rows,) bool;
-    ``coupling`` (rows, n); ``offset`` (rows,); ``base`` and ``tool`` (4, 4).
+    Attributes
+    ----------
+    a, cos_alpha, sin_alpha : (rows,) arrays
+        Metres; cosine and sine of alpha.
+    fixed : (rows,) array
+        The constant one of d_i and theta_i, metres or radians.
+    prismatic : (rows,) bool array
+    coupling : (rows, n) array
+    offset : (rows,) array
+        Radians or metres.
+    base, tool : (4, 4) arrays
     """
 
     a: np.ndarray
@@ -98,7 +115,7 @@ class Chain:
             result = result @ self.row_matrix(i, self.offset[i])
         return result @ self.tool
 
-    def forward(self, q) -> np.ndarray:
+    def forward(self, q: ArrayLike) -> np.ndarray:
         """Poses of the tool for joint values q.
 
         q: shape (..., n), radians (revolute) or metres (prismatic). Returns (..., 4, 4).
@@ -115,7 +132,7 @@ class Chain:
                 poses[block, :3, j] = column.T
         return poses.reshape(*q.shape[:-1], 4, 4)
 
-    def frames(self, q) -> np.ndarray:
+    def frames(self, q: ArrayLike) -> np.ndarray:
         """Frames of all rows in the world: q (..., n) -> (..., rows, 4, 4)."""
         q = self._checked(q)
         columns = q.reshape(-1, self.joints)
@@ -126,7 +143,7 @@ class Chain:
                 frames[:, i, :3, j] = column.T
         return frames.reshape(*q.shape[:-1], len(self.a), 4, 4)
 
-    def _checked(self, q) -> np.ndarray:
+    def _checked(self, q: ArrayLike) -> np.ndarray:
         q = np.asarray(q, dtype=float)
         if q.ndim == 0 or q.shape[-1] != self.joints:
             raise ValueError(f"expected q of shape (..., {self.joints}), found {q.shape}")
@@ -137,9 +154,9 @@ class Chain:
     @cached_property
     def _variables(self) -> list[list[tuple[int, float]]]:
         """For each row the joints that act on it, with their coefficients."""
-        return [[(j, row[j]) for j in np.flatnonzero(row)] for row in self.coupling]
+        return [[(int(j), row[j]) for j in np.flatnonzero(row)] for row in self.coupling]
 
-    def _walk(self, q: np.ndarray, every_frame: bool = False):
+    def _walk(self, q: np.ndarray, every_frame: bool = False) -> Iterator[Vectors]:
         """Yield the axes and origin (x, y, z, p) of frames, each (3, 1) or (3, N), base first.
 
         A frame is yielded at the end of each run of parallel axes, where it is needed to go
@@ -184,10 +201,9 @@ class Chain:
                 x, y, z = along, up * across, up * z
                 angle, up = 0.0, 1.0
 
-    def _with_tool(self, x, y, z, p):
+    def _with_tool(self, x: np.ndarray, y: np.ndarray, z: np.ndarray, p: np.ndarray) -> Vectors:
         if np.array_equal(self.tool, np.eye(4)):
             return x, y, z, p
         t = self.tool
-        columns = [t[0, j] * x + t[1, j] * y + t[2, j] * z for j in range(4)]
-        columns[3] = columns[3] + p
-        return columns
+        along = [t[0, j] * x + t[1, j] * y + t[2, j] * z for j in range(4)]
+        return along[0], along[1], along[2], along[3] + p

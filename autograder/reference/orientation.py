@@ -1,4 +1,4 @@
-"""Orientation: Euler sets, roll-pitch-yaw, quaternions, axis and angle.
+"""Orientation: Euler sets and roll-pitch-yaw.
 
 Every function is batched: leading dimensions are written ``...``. Angles are
 in radians; the ones that are returned lie in (-pi, pi].
@@ -10,15 +10,22 @@ same order. ``intrinsic`` is never guessed:
 * extrinsic (about the fixed axes):              ``R = R3(c) R2(b) R1(a)``.
 
 Sources: the EPFL slides (twelve sets; a wrist with body axes z, x, z; a cardan
-wrist with body axes x, z, y; ``Rz Ry Rx`` for roll, pitch, yaw).
+wrist with body axes x, z, y; ``Rz Ry Rx`` for roll, pitch, yaw). For unit
+quaternions, rotation vectors and the like, use `scipy.spatial.transform.Rotation`.
 """
 
+from __future__ import annotations
+
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from dhkit.geometry import rotation, wrap
+
+from .status import Status
 
 EULER_SETS = tuple("".join(s) for s in product("xyz", repeat=3) if s[0] != s[1] != s[2])
 """The twelve sequences without two equal neighbours."""
@@ -29,16 +36,8 @@ EULER_WRIST = "zxz"
 CARDAN_WRIST = "xzy"
 """Pitch about x, yaw about z, roll about y; intrinsic (EPFL slides)."""
 
-REGULAR = "two solutions"
-ONLY_SUM = "only first + third"
-ONLY_DIFFERENCE = "only first - third"
 
-AXIS_DEFINED = "two solutions: (axis, angle) and (-axis, -angle)"
-AXIS_FREE = "angle 0: every axis"
-HALF_TURN = "half turn: both senses of the axis with the same angle"
-
-
-def check_rotation(R, tolerance=1e-6):
+def check_rotation(R: ArrayLike, tolerance: float = 1e-6) -> np.ndarray:
     """Return R as a float array, or raise.
 
     Raises
@@ -76,27 +75,28 @@ class EulerAngles:
         the two solutions. The first has its middle angle in [0, pi] (sets like
         zxz) or in [-pi/2, pi/2] (sets like xyz). At a singular rotation both
         belong to the one-parameter family, see `family` for the others.
-    status : array of str, shape (...)
-        `REGULAR`, or at a singular rotation what remains defined: `ONLY_SUM`
-        (first + third angle; their difference is free) or `ONLY_DIFFERENCE`
-        (first - third; their sum is free).
+    status : array of `Status`, shape (...)
+        SOLVED: the two solutions; INFINITE at a singular rotation (gimbal lock).
+    sign : array, shape (...), +1 or -1
+        the combination ``first + sign * third`` is the well conditioned one; at
+        a singular rotation it is all that is defined.
     combination : array, shape (...), radians
-        the value of first + third or first - third, whichever is the well
-        conditioned one; at a singular rotation all that is known.
+        its value.
     """
 
     axes: str
     intrinsic: bool
     angles: np.ndarray
     status: np.ndarray
+    sign: np.ndarray
     combination: np.ndarray
 
     @property
-    def singular(self):
+    def singular(self) -> np.ndarray:
         """Bool array, shape (...)."""
-        return self.status != REGULAR
+        return self.status == Status.INFINITE
 
-    def family(self, first):
+    def family(self, first: ArrayLike) -> np.ndarray:
         """The member of a singular family whose first angle is `first`.
 
         `first`: radians, broadcast against the batch. Returns (..., 3).
@@ -108,24 +108,24 @@ class EulerAngles:
         """
         if not np.all(self.singular):
             raise ValueError("a regular rotation has two solutions and no free angle")
-        first, combination, middle, is_sum = np.broadcast_arrays(
-            np.asarray(first, float), self.combination, self.angles[..., 0, 1], self.status == ONLY_SUM
+        first, combination, middle, sign = np.broadcast_arrays(
+            np.asarray(first, float), self.combination, self.angles[..., 0, 1], self.sign
         )
-        third = np.where(is_sum, combination - first, first - combination)
+        third = sign * (combination - first)
         return np.stack([wrap(first), middle, wrap(third)], axis=-1)
 
-    def describe(self, names=("first", "second", "third")):
+    def describe(self, names: Sequence[str] = ("first", "second", "third")) -> str:
         """The status of a single rotation as a sentence with your angle names."""
         if np.ndim(self.status):
             raise ValueError(f"describe one rotation at a time: this is a batch of shape {np.shape(self.status)}")
-        if self.status == REGULAR:
-            return REGULAR
+        if not self.singular:
+            return "two solutions"
         first, _, third = names
-        defined, free = ("+", "-") if self.status == ONLY_SUM else ("-", "+")
+        defined, free = ("+", "-") if self.sign > 0 else ("-", "+")
         return f"{first} {defined} {third} = {float(self.combination):.6g} rad, {first} {free} {third} free"
 
 
-def euler_matrix(angles, axes, *, intrinsic):
+def euler_matrix(angles: ArrayLike, axes: str, *, intrinsic: bool) -> np.ndarray:
     """Rotation of three Euler angles.
 
     Parameters
@@ -144,7 +144,7 @@ def euler_matrix(angles, axes, *, intrinsic):
     return first @ second @ third if intrinsic else third @ second @ first
 
 
-def euler_angles(R, axes, *, intrinsic, tolerance=1e-9):
+def euler_angles(R: ArrayLike, axes: str, *, intrinsic: bool, tolerance: float = 1e-9) -> EulerAngles:
     """Both triples of Euler angles of a rotation.
 
     One algorithm serves the twelve sets. With body axes (i, j, i),
@@ -174,7 +174,7 @@ def euler_angles(R, axes, *, intrinsic, tolerance=1e-9):
         For an unknown set, or when R is not a rotation.
     """
     _check_set(axes)
-    R = check_rotation(R)
+    turned = check_rotation(R)
     body = axes if intrinsic else axes[::-1]
     i, j, k = map(_axis_number, body)
     m = 3 - i - j
@@ -183,26 +183,27 @@ def euler_angles(R, axes, *, intrinsic, tolerance=1e-9):
     order = +1
     if k != i:
         quarter, order = -cyclic * np.pi / 2, -cyclic
-        R = R @ np.rint(rotation(body[1], quarter))
+        turned = turned @ np.rint(rotation(body[1], quarter))
 
-    across = np.hypot(R[..., j, i], R[..., m, i])
+    across = np.hypot(turned[..., j, i], turned[..., m, i])
     singular = across < tolerance
-    a = np.where(singular, 0.0, np.arctan2(order * R[..., j, i], -cyclic * order * R[..., m, i]))
-    b = order * np.arctan2(np.where(singular, 0.0, across), R[..., i, i])
-    row = np.cos(a)[..., None] * R[..., j, :] + cyclic * np.sin(a)[..., None] * R[..., m, :]
+    a = np.where(singular, 0.0, np.arctan2(order * turned[..., j, i], -cyclic * order * turned[..., m, i]))
+    b = order * np.arctan2(np.where(singular, 0.0, across), turned[..., i, i])
+    row = np.cos(a)[..., None] * turned[..., j, :] + cyclic * np.sin(a)[..., None] * turned[..., m, :]
     c = np.arctan2(-cyclic * row[..., m], row[..., j])
 
-    upright = R[..., i, i] > 0
+    upright = turned[..., i, i] > 0
     ends = (a, c) if intrinsic else (c, a)
-    combination = wrap(np.where(upright, ends[0] + ends[1], ends[0] - ends[1]))
-    status = np.where(singular, np.where(upright, ONLY_SUM, ONLY_DIFFERENCE), REGULAR)
+    sign = np.where(upright, 1, -1)
+    combination = wrap(ends[0] + sign * ends[1])
+    status = np.where(singular, Status.INFINITE, Status.SOLVED)
 
     triples = [(a, b - quarter, c), (a + np.pi, -b - quarter, c + np.pi)]
     angles = np.stack([np.stack(t if intrinsic else t[::-1], axis=-1) for t in triples], axis=-2)
-    return EulerAngles(axes, intrinsic, wrap(angles), status, combination)
+    return EulerAngles(axes, intrinsic, wrap(angles), status, sign, combination)
 
 
-def rpy_matrix(roll, pitch, yaw):
+def rpy_matrix(roll: ArrayLike, pitch: ArrayLike, yaw: ArrayLike) -> np.ndarray:
     """``Rz(yaw) Ry(pitch) Rx(roll)``: fixed axes x, y, z in this order.
 
     Each of shape (...), radians. Returns (..., 3, 3). This is the assignment of
@@ -211,7 +212,7 @@ def rpy_matrix(roll, pitch, yaw):
     return euler_matrix(np.stack(np.broadcast_arrays(roll, pitch, yaw), axis=-1), "xyz", intrinsic=False)
 
 
-def rpy(R, tolerance=1e-9):
+def rpy(R: ArrayLike, tolerance: float = 1e-9) -> EulerAngles:
     """Both (roll, pitch, yaw) of a rotation: `EulerAngles` of shape (..., 2, 3).
 
     The second is (roll + pi, pi - pitch, yaw + pi). At pitch = pi/2 only
@@ -220,123 +221,12 @@ def rpy(R, tolerance=1e-9):
     return euler_angles(R, "xyz", intrinsic=False, tolerance=tolerance)
 
 
-# -- Quaternions, axis and angle -----------------------------------------------
-
-
-@dataclass(frozen=True)
-class AxisAngle:
-    """Axis and angle of a batch of rotations.
-
-    Attributes
-    ----------
-    axis : array, shape (..., 3), unit vectors
-    angle : array, shape (...), radians in [0, pi]
-    status : array of str, shape (...)
-        `AXIS_DEFINED`; `AXIS_FREE` at the identity (the z axis stands for all);
-        `HALF_TURN` when (axis, pi) and (-axis, pi) both serve.
-    """
-
-    axis: np.ndarray
-    angle: np.ndarray
-    status: np.ndarray
-
-    def both(self):
-        """Both solutions: axes (..., 2, 3) and angles (..., 2) in (-pi, pi]."""
-        return (np.stack([self.axis, -self.axis], axis=-2), wrap(np.stack([self.angle, -self.angle], axis=-1)))
-
-
-def quaternion(R):
-    """Unit quaternion (w, x, y, z) of a rotation; its opposite is the other one.
-
-    R: shape (..., 3, 3). Returns (..., 4) with w >= 0, and where w = 0 the first
-    nonzero of x, y, z positive. Each component is taken from the largest of the
-    four squared ones, so that nothing is divided by a small number.
-
-    Raises
-    ------
-    ValueError
-        When R is not a rotation.
-    """
-    R = check_rotation(R)
-    xx, yy, zz = R[..., 0, 0], R[..., 1, 1], R[..., 2, 2]
-    x, y, z = (R[..., 2, 1] - R[..., 1, 2], R[..., 0, 2] - R[..., 2, 0], R[..., 1, 0] - R[..., 0, 1])
-    xy, xz, yz = (R[..., 0, 1] + R[..., 1, 0], R[..., 0, 2] + R[..., 2, 0], R[..., 1, 2] + R[..., 2, 1])
-    # Four times the outer product of (w, x, y, z) with itself: every row is a multiple of it.
-    rows = np.stack(
-        [
-            np.stack([1 + xx + yy + zz, x, y, z], axis=-1),
-            np.stack([x, 1 + xx - yy - zz, xy, xz], axis=-1),
-            np.stack([y, xy, 1 - xx + yy - zz, yz], axis=-1),
-            np.stack([z, xz, yz, 1 - xx - yy + zz], axis=-1),
-        ],
-        axis=-2,
-    )
-    largest = np.argmax(np.diagonal(rows, axis1=-2, axis2=-1), axis=-1)
-    q = np.take_along_axis(rows, largest[..., None, None], axis=-2)[..., 0, :]
-    q = q / np.linalg.norm(q, axis=-1, keepdims=True)
-    leading = np.argmax(np.abs(q) > 1e-12, axis=-1)
-    return q * np.where(np.take_along_axis(q, leading[..., None], axis=-1) < 0, -1.0, 1.0)
-
-
-def quaternion_matrix(q):
-    """Rotation of a quaternion (w, x, y, z), shape (..., 4), of any nonzero length.
-
-    Returns (..., 3, 3). Raises ValueError for a zero or non-finite quaternion.
-    """
-    q = np.asarray(q, float)
-    length = np.linalg.norm(q, axis=-1, keepdims=True)
-    if q.shape[-1:] != (4,) or not np.isfinite(length).all() or (length == 0).any():
-        raise ValueError("a quaternion is four finite numbers (w, x, y, z), not all zero")
-    q = q / length
-    w, vector = q[..., 0, None, None], q[..., 1:]
-    outer = vector[..., :, None] * vector[..., None, :]
-    square = np.sum(vector**2, axis=-1)[..., None, None]
-    return (w**2 - square) * np.eye(3) + 2 * outer + 2 * w * _cross_matrix(vector)
-
-
-def axis_angle(R, tolerance=1e-9):
-    """Axis and angle of a rotation, R of shape (..., 3, 3).
-
-    `tolerance` (radians): nearer than this to angle 0 the axis is called free,
-    nearer to pi the rotation is called a half turn. Raises ValueError when R is
-    not a rotation.
-    """
-    q = quaternion(R)
-    length = np.linalg.norm(q[..., 1:], axis=-1)
-    angle = 2 * np.arctan2(length, q[..., 0])
-    free = angle < tolerance
-    axis = np.where(free[..., None], (0.0, 0.0, 1.0), q[..., 1:] / np.where(free, 1.0, length)[..., None])
-    status = np.where(free, AXIS_FREE, np.where(np.pi - angle < tolerance, HALF_TURN, AXIS_DEFINED))
-    return AxisAngle(axis, np.where(free, 0.0, angle), status)
-
-
-def axis_angle_matrix(axis, angle):
-    """Rotation by `angle` (shape (...), radians) about `axis` (shape (..., 3)).
-
-    The axis need not have unit length. Returns (..., 3, 3). Raises ValueError
-    for a zero or non-finite axis.
-    """
-    axis = np.asarray(axis, float)
-    length = np.linalg.norm(axis, axis=-1, keepdims=True)
-    if axis.shape[-1:] != (3,) or not np.isfinite(length).all() or (length == 0).any():
-        raise ValueError("an axis is three finite numbers, not all zero")
-    half = np.asarray(angle, float)[..., None] / 2
-    vector = np.sin(half) * (axis / length)
-    return quaternion_matrix(np.concatenate([np.broadcast_to(np.cos(half), vector.shape[:-1] + (1,)), vector], axis=-1))
-
-
-def _cross_matrix(v):
-    K = np.zeros(v.shape + (3,))
-    K[..., 2, 1], K[..., 0, 2], K[..., 1, 0] = v[..., 0], v[..., 1], v[..., 2]
-    return K - np.swapaxes(K, -1, -2)
-
-
-def _axis_number(axis):
+def _axis_number(axis: str) -> int:
     if axis not in ("x", "y", "z"):
         raise ValueError(f"an axis is 'x', 'y' or 'z', found {axis!r}")
     return "xyz".index(axis)
 
 
-def _check_set(axes):
+def _check_set(axes: str) -> None:
     if axes not in EULER_SETS:
         raise ValueError(f"unknown Euler set {axes!r}; the twelve are {', '.join(EULER_SETS)}")

@@ -1,10 +1,10 @@
-"""Planar parallel robots: where the inverse model is the easy one, and where it is not.
+"""Planar parallel robots: where inverse kinematics are the easy ones, and where they are not.
 
 Three legs join anchors ``A_i`` of the base to points ``B_i = P + R(phi) b_i`` of
 a platform with pose (x, y, phi), P = (x, y). The legs of the 3-RPR have a
-controlled length: the inverse model has one solution, the direct model up to
+controlled length: inverse kinematics have one solution, forward kinematics up to
 six, the assembly modes. The legs of the 3-RRR are two-bar arms driven at the
-base: its inverse model already has 2^3 = 8 solutions.
+base: its inverse kinematics already have 2^3 = 8 solutions.
 
 Lengths in metres, angles in radians, batch shape written ``...``.
 
@@ -12,14 +12,18 @@ Source: EPFL slides, which state for parallel robots in general what holds for
 the 3-RPR; the architecture of their figure is not named.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from dhkit.geometry import rotation_2d, wrap
 
-from .equations import DOUBLE, INFINITE, NONE, SOLVED, Roots, type8
+from .equations import Roots, type8
+from .status import Status
 
 # In lengths scaled to 1. An error e of a merged mode shows as e^2 in the leg lengths: hence
 # the square between the first two.
@@ -29,40 +33,47 @@ _CONGRUENT = 1e-9
 _SINGULAR = 1e-6  # determinant of the scaled constraint Jacobian at merging modes
 
 
-@dataclass(frozen=True)
+_BASE = ((0.0, 0.0), (1.0, 0.0), (0.4, 0.9))
+_PLATFORM = ((-0.2, -0.1), (0.25, -0.15), (0.0, 0.2))
+
+
+@dataclass(frozen=True, init=False, eq=False)
 class ThreeRPR:
     """Planar 3-RPR: three legs of variable length between pin joints.
 
-    base : array_like, shape (3, 2), the anchors A_i in the base frame
-    platform : array_like, shape (3, 2), the points b_i in the platform frame
+    base : array_like, shape (3, 2), the anchors A_i in the base frame, metres
+    platform : array_like, shape (3, 2), the points b_i in the platform frame, metres
 
     Raises ValueError when two legs coincide, or when all three anchors or all
     three platform points do: the platform could then turn freely.
     """
 
-    base: np.ndarray = ((0.0, 0.0), (1.0, 0.0), (0.4, 0.9))
-    platform: np.ndarray = ((-0.2, -0.1), (0.25, -0.15), (0.0, 0.2))
+    base: np.ndarray
+    platform: np.ndarray
 
-    def __post_init__(self):
-        _store_triangles(self)
+    def __init__(self, base: ArrayLike = _BASE, platform: ArrayLike = _PLATFORM) -> None:
+        self.__dict__.update(zip(("base", "platform"), _triangles(base, platform)))
 
-    def inverse(self, pose):
-        """Leg lengths of a pose: (..., 3) = (x, y, phi) -> (..., 3). One solution."""
+    def inverse(self, pose: ArrayLike) -> np.ndarray:
+        """Inverse kinematics: leg lengths (..., 3) of a pose (..., 3) = (x, y, phi). One solution."""
         return np.linalg.norm(_legs(self, pose), axis=-1)
 
-    def jacobian(self, pose):
+    def jacobian(self, pose: ArrayLike) -> np.ndarray:
         """Rates of the leg lengths, q' = J (x', y', phi'): (..., 3) -> (..., 3, 3).
 
         Row i is (u_x, u_y, r x u): u the direction of leg i, r from P to B_i. Singular where the
         three leg lines pass through one point or are parallel. NaN for a leg of length zero.
+
+        Source: C. Gosselin, J. Angeles, "Singularity analysis of closed-loop kinematic chains", 1990,
+        doi:10.1109/70.56660.
         """
         legs = _legs(self, pose)
         lengths = np.linalg.norm(legs, axis=-1, keepdims=True)
         along = legs / np.where(lengths > 0, lengths, np.nan)
-        arms = _turn(np.asarray(pose, float)[..., 2], self.platform)
+        arms = _rotated(np.asarray(pose, float)[..., 2], self.platform)
         return np.concatenate([along, _cross(arms, along)[..., None]], axis=-1)
 
-    def polynomial(self, lengths):
+    def polynomial(self, lengths: ArrayLike) -> np.ndarray:
         """Degree-6 polynomial in t = tan(phi / 2) whose real roots carry the assembly modes.
 
         lengths: shape (..., 3). Returns (..., 7), highest power first. Leg 1
@@ -70,11 +81,11 @@ class ThreeRPR:
         eliminating them from leg 1 gives a trigonometric polynomial of degree 3
         in phi. phi = pi is a root when the first coefficient vanishes.
         """
-        lengths = _lengths(lengths)
-        return self._polynomial(lengths, np.zeros(lengths.shape[:-1]))
+        checked = _lengths(lengths)
+        return self._polynomial(checked, np.zeros(checked.shape[:-1]))
 
-    def direct(self, lengths):
-        """All assembly modes of given leg lengths.
+    def forward(self, lengths: ArrayLike) -> Roots:
+        """Forward kinematics: all assembly modes of given leg lengths.
 
         Parameters
         ----------
@@ -84,19 +95,18 @@ class ThreeRPR:
         -------
         Roots
             values (..., 6, 3) = (x, y, phi), by increasing phi in (-pi, pi]. Status
-            `SOLVED`, `DOUBLE` (at least two modes merge: a singular pose), `NONE`
-            or `INFINITE` (a platform congruent to its base with three equal legs
-            moves along a circle; phi is free when the legs pin the platform to
-            a point it turns about).
+            BOUNDARY: at least two modes merge, a singular pose. INFINITE: a platform
+            congruent to its base with three equal legs moves along a circle; phi is
+            free when the legs pin the platform to a point it turns about.
 
         Raises
         ------
         ValueError
             For a wrong shape, a negative or a non-finite length.
         """
-        lengths = _lengths(lengths)
-        shape = lengths.shape[:-1]
-        lengths = lengths.reshape(-1, 3)
+        checked = _lengths(lengths)
+        shape = checked.shape[:-1]
+        lengths = checked.reshape(-1, 3)
         scale = np.maximum(lengths.max(axis=-1, initial=0), self._size)
         start, vanishing = self._start_angle(lengths, scale)
         phi = np.concatenate([self._root_angles(lengths, start), self._parallel_lines(len(lengths))], axis=-1)
@@ -117,10 +127,10 @@ class ThreeRPR:
         values[infinite, 1:] = 0.0
         status = np.select(
             [infinite & exists[:, 0], ~exists.any(axis=-1), (accepted & singular).any(axis=-1)],
-            [INFINITE, NONE, DOUBLE],
-            SOLVED,
+            [Status.INFINITE, Status.UNREACHABLE, Status.BOUNDARY],
+            Status.SOLVED,
         )
-        free = np.where(status == INFINITE, np.where(circle, "P along a circle", "phi"), "")
+        free = np.where(status == Status.INFINITE, np.where(circle, "P along a circle", "phi"), "")
         return Roots(
             values.reshape(shape + (6, 3)), exists.reshape(shape + (6,)), status.reshape(shape), free.reshape(shape)
         )
@@ -129,26 +139,26 @@ class ThreeRPR:
     # leg 1 reads |p| = q1 and leg i reads |p + d_i| = q_i, d_i = R b_i - A_i.
 
     @property
-    def _size(self):
+    def _size(self) -> float:
         return max(np.ptp(self.base, axis=0).max(), np.ptp(self.platform, axis=0).max())
 
-    def _offsets(self, phi):
+    def _offsets(self, phi: np.ndarray) -> np.ndarray:
         """d_2 and d_3 for angles of any shape: (..., 2, 2)."""
-        return _turn(phi, self.platform[1:] - self.platform[0]) - (self.base[1:] - self.base[0])
+        return _rotated(phi, self.platform[1:] - self.platform[0]) - (self.base[1:] - self.base[0])
 
-    def _linear(self, lengths, phi):
+    def _linear(self, lengths: np.ndarray, phi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """d_i and w_i of the linear equations 2 p . d_i = w_i; lengths (N, 3), phi (N, m)."""
         d = self._offsets(phi)
         squares = lengths**2
         return d, (squares[:, 1:] - squares[:, :1])[:, None] - np.sum(d**2, axis=-1)
 
-    def _eliminant(self, lengths, phi):
+    def _eliminant(self, lengths: np.ndarray, phi: np.ndarray) -> np.ndarray:
         """|w2 d3 - w3 d2|^2 - 4 q1^2 (d2 x d3)^2: zero at the assembly modes."""
         d, w = self._linear(lengths, phi)
         mixed = w[..., 0, None] * d[..., 1, :] - w[..., 1, None] * d[..., 0, :]
         return np.sum(mixed**2, axis=-1) - 4 * lengths[:, :1] ** 2 * _cross(d[..., 0, :], d[..., 1, :]) ** 2
 
-    def _polynomial(self, lengths, start):
+    def _polynomial(self, lengths: np.ndarray, start: np.ndarray) -> np.ndarray:
         """Coefficients in tan((phi - start) / 2), highest power first.
 
         The harmonics c_k of the eliminant come from samples; then
@@ -161,7 +171,7 @@ class ThreeRPR:
         coefficients = sum(harmonics[:, k, None] * _HALF_ANGLE[k + 3] for k in range(-3, 4))
         return coefficients.real.reshape(shape + (7,))
 
-    def _start_angle(self, lengths, scale):
+    def _start_angle(self, lengths: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Angle opposite to the largest eliminant, and where the eliminant vanishes throughout.
 
         Measured from there, the first coefficient of the polynomial is large and no
@@ -171,7 +181,7 @@ class ThreeRPR:
         sampled = np.abs(self._eliminant(lengths, np.broadcast_to(nodes, (len(lengths), 16))))
         return (nodes[np.argmax(sampled, axis=-1)] - np.pi, sampled.max(axis=-1, initial=0) <= 1e-12 * scale**6)
 
-    def _root_angles(self, lengths, start):
+    def _root_angles(self, lengths: np.ndarray, start: np.ndarray) -> np.ndarray:
         """Angles of the six roots (N, 6), real parts of complex ones included.
 
         A pair of complex roots beside the real axis is a merged root split by
@@ -185,7 +195,7 @@ class ThreeRPR:
         companion[:, 0, :] = -p[:, 1:] / p[:, :1]
         return start[:, None] + 2 * np.arctan(np.linalg.eigvals(companion).real)
 
-    def _parallel_lines(self, n):
+    def _parallel_lines(self, n: int) -> np.ndarray:
         """Angles (n, 2) at which the two linear equations describe parallel lines.
 
         There two modes share one phi, a double root of the polynomial.
@@ -199,7 +209,7 @@ class ThreeRPR:
         away = np.arccos(np.clip(-constant / size, -1, 1)) if size > 0 else 0.0
         return np.broadcast_to([middle + away, middle - away], (n, 2))
 
-    def _on_first_leg(self, lengths, phi):
+    def _on_first_leg(self, lengths: np.ndarray, phi: np.ndarray) -> np.ndarray:
         """Both points of the circle of leg 1 on the line of the longer d: (N, 2m, 3)."""
         d, w = self._linear(lengths, phi)
         size = np.linalg.norm(d, axis=-1)
@@ -216,7 +226,9 @@ class ThreeRPR:
         points = [along[..., None] * unit + side * across[..., None] * normal for side in (1, -1)]
         return np.concatenate([np.concatenate([p, phi[..., None]], axis=-1) for p in points], axis=1)
 
-    def _polish(self, lengths, scale, candidates):
+    def _polish(
+        self, lengths: np.ndarray, scale: np.ndarray, candidates: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Newton's method on the three leg equations, from (N, m, 3) candidates (p, phi).
 
         Returns the candidates, best first, whether they close the legs, and whether
@@ -238,23 +250,23 @@ class ThreeRPR:
         _, J = self._closure(lengths, scale, candidates)
         return candidates, closed, np.abs(np.linalg.det(J)) < _SINGULAR
 
-    def _leg_vectors(self, candidates):
+    def _leg_vectors(self, candidates: np.ndarray) -> np.ndarray:
         p, d = candidates[..., None, :2], self._offsets(candidates[..., 2])
         return np.concatenate([p, p + d], axis=-2)
 
-    def _closure(self, lengths, scale, candidates):
+    def _closure(self, lengths: np.ndarray, scale: np.ndarray, candidates: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Half the errors of the squared lengths and their Jacobian, in lengths scaled to 1."""
         legs = self._leg_vectors(candidates) / scale[..., None, None]
         errors = (np.sum(legs**2, axis=-1) - (lengths[:, None] / scale[..., None]) ** 2) / 2
-        turning = _turn(candidates[..., 2] + np.pi / 2, self.platform - self.platform[0])
+        turning = _rotated(candidates[..., 2] + np.pi / 2, self.platform - self.platform[0])
         turning = turning / scale[..., None, None]
         return errors, np.concatenate([legs, np.sum(legs * turning, axis=-1)[..., None]], axis=-1)
 
-    def _platform_pose(self, candidates):
-        P = candidates[..., :2] + self.base[0] - _turn(candidates[..., 2], self.platform[:1])[..., 0, :]
+    def _platform_pose(self, candidates: np.ndarray) -> np.ndarray:
+        P = candidates[..., :2] + self.base[0] - _rotated(candidates[..., 2], self.platform[:1])[..., 0, :]
         return np.concatenate([P, wrap(candidates[..., 2:])], axis=-1)
 
-    def _circular_motion(self, lengths, scale):
+    def _circular_motion(self, lengths: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Where the platform covers the base and the legs are equal, and one such pose."""
         b, a = self.platform[1:] - self.platform[0], self.base[1:] - self.base[0]
         phi = np.arctan2(np.sum(_cross(b, a)), np.sum(b * a))
@@ -265,29 +277,33 @@ class ThreeRPR:
         return covers & equal & long, self._platform_pose(pose)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False, eq=False)
 class ThreeRRR:
     """Planar 3-RRR: three two-bar legs, driven at the base anchors.
 
     base, platform : as for `ThreeRPR`
-    proximal, distal : array_like, shape (3,), lengths of the bars, from the base
+    proximal, distal : array_like, shape (3,), lengths of the bars, from the base, metres
     """
 
-    base: np.ndarray = ((0.0, 0.0), (1.0, 0.0), (0.4, 0.9))
-    platform: np.ndarray = ((-0.2, -0.1), (0.25, -0.15), (0.0, 0.2))
-    proximal: np.ndarray = (0.5, 0.5, 0.5)
-    distal: np.ndarray = (0.45, 0.45, 0.45)
+    base: np.ndarray
+    platform: np.ndarray
+    proximal: np.ndarray
+    distal: np.ndarray
 
-    def __post_init__(self):
-        _store_triangles(self)
-        for name in ("proximal", "distal"):
-            bars = np.asarray(getattr(self, name), float)
-            if bars.shape != (3,) or not (bars > 0).all():
-                raise ValueError(f"{name} is three positive lengths, found {getattr(self, name)}")
-            object.__setattr__(self, name, bars)
+    def __init__(
+        self,
+        base: ArrayLike = _BASE,
+        platform: ArrayLike = _PLATFORM,
+        proximal: ArrayLike = (0.5, 0.5, 0.5),
+        distal: ArrayLike = (0.45, 0.45, 0.45),
+    ) -> None:
+        anchors, points = _triangles(base, platform)
+        self.__dict__.update(
+            base=anchors, platform=points, proximal=_bars(proximal, "proximal"), distal=_bars(distal, "distal")
+        )
 
-    def inverse(self, pose):
-        """All postures of the legs for a pose.
+    def inverse(self, pose: ArrayLike) -> Roots:
+        """Inverse kinematics: all postures of the legs for a pose.
 
         Parameters
         ----------
@@ -305,18 +321,19 @@ class ThreeRRR:
         legs = type8(self.proximal, self.distal, target[..., 0], target[..., 1])
         choices = np.array(list(product((0, 1), repeat=3)))
         number = np.arange(3)
-        exists = legs.exists[..., number, choices].all(axis=-1)
+        exists = np.asarray(legs.exists[..., number, choices].all(axis=-1))
         values = legs.values[..., number, choices, :].reshape(exists.shape + (6,))
+        unsolved = [Status.UNREACHABLE, Status.INFINITE, Status.BOUNDARY]
         status = np.select(
-            [(legs.status == NONE).any(-1), (legs.status == INFINITE).any(-1), (legs.status == DOUBLE).any(-1)],
-            [NONE, INFINITE, DOUBLE],
-            SOLVED,
+            [(legs.status == each).any(-1) for each in unsolved],
+            unsolved,
+            Status.SOLVED,
         )
-        free = np.where(status == INFINITE, "drive angle of a folded leg", "")
+        free = np.where(status == Status.INFINITE, "drive angle of a folded leg", "")
         return Roots(np.where(exists[..., None], values, 0.0), exists, status, free)
 
 
-def _half_angle_basis():
+def _half_angle_basis() -> np.ndarray:
     plus, minus = np.array([1j, 1]), np.array([-1j, 1])
     rows = []
     for k in range(-3, 4):
@@ -330,28 +347,36 @@ def _half_angle_basis():
 _HALF_ANGLE = _half_angle_basis()
 
 
-def _store_triangles(robot):
-    for name in ("base", "platform"):
-        points = np.asarray(getattr(robot, name), float)
+def _triangles(base: ArrayLike, platform: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    triangles = []
+    for name, corners in (("base", base), ("platform", platform)):
+        points = np.asarray(corners, float)
         if points.shape != (3, 2) or not np.isfinite(points).all():
             raise ValueError(f"{name} is three points of the plane, shape (3, 2)")
         if np.ptp(points, axis=0).max() == 0:
             raise ValueError(f"the three points of the {name} coincide: nothing fixes phi")
-        object.__setattr__(robot, name, points)
-    legs = np.concatenate([robot.base, robot.platform], axis=-1)
-    if len(np.unique(legs, axis=0)) < 3:
+        triangles.append(points)
+    if len(np.unique(np.concatenate(triangles, axis=-1), axis=0)) < 3:
         raise ValueError("two legs join the same two points: one of them controls nothing")
+    return triangles[0], triangles[1]
 
 
-def _legs(robot, pose):
+def _bars(lengths: ArrayLike, name: str) -> np.ndarray:
+    bars = np.asarray(lengths, float)
+    if bars.shape != (3,) or not (bars > 0).all():
+        raise ValueError(f"{name} is three positive lengths, found {lengths!r}")
+    return bars
+
+
+def _legs(robot: ThreeRPR | ThreeRRR, pose: ArrayLike) -> np.ndarray:
     """Vectors A_i B_i of a pose: (..., 3) -> (..., 3, 2)."""
     pose = np.asarray(pose, float)
     if pose.shape[-1:] != (3,) or not np.isfinite(pose).all():
         raise ValueError(f"a pose is three finite numbers (x, y, phi), found shape {pose.shape}")
-    return pose[..., None, :2] + _turn(pose[..., 2], robot.platform) - robot.base
+    return pose[..., None, :2] + _rotated(pose[..., 2], robot.platform) - robot.base
 
 
-def _lengths(lengths):
+def _lengths(lengths: ArrayLike) -> np.ndarray:
     lengths = np.asarray(lengths, float)
     if lengths.shape[-1:] != (3,):
         raise ValueError(f"three leg lengths are needed, found shape {lengths.shape}")
@@ -360,16 +385,16 @@ def _lengths(lengths):
     return lengths
 
 
-def _turn(phi, points):
+def _rotated(phi: np.ndarray, points: np.ndarray) -> np.ndarray:
     """R(phi) applied to points (m, 2): phi of any shape (...) -> (..., m, 2)."""
     return points @ np.swapaxes(rotation_2d(phi), -1, -2)
 
 
-def _cross(a, b):
+def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
-def _first_of_equals(candidates, closed, scale):
+def _first_of_equals(candidates: np.ndarray, closed: np.ndarray, scale: np.ndarray) -> np.ndarray:
     """True for candidates (N, m, 3) with no closed one before them at the same pose."""
     gap = np.abs(candidates[:, :, None] - candidates[:, None])
     gap[..., :2] /= scale[:, None, None, None]

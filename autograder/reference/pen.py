@@ -13,9 +13,9 @@ import numpy as np
 from dhkit.geometry import wrap
 
 from .elbow import ArmGeometry
-from .inverse import Answer, InverseModel, outside_limits, translations
-from .marks import FREE_FIRST, FREE_LINE, FREE_PLANE, SIDEWAYS
-from .solutions import INSIDE, LIMITED, NOTHING, OFF
+from .inverse import Branches, InverseModel, translations
+from .limits import outside_limits
+from .status import Failure, Flag
 from .tables import DHTable
 
 
@@ -29,28 +29,27 @@ class PenArm(InverseModel):
     """
 
     task = "x, y, z"
-    joints = 3
-    branches = 2
-    revolute = [0, 1, 2]
-    anchors = {FREE_FIRST: (0,), FREE_PLANE: (1, 2)}
+    expected_joints = 3
+    branch_count = 2
+    revolute = (0, 1, 2)
     line = (1, 2, 1, 1)
 
-    def __init__(self, table: DHTable):
+    def __init__(self, table: DHTable) -> None:
         super().__init__(table)
+        self.anchors = {Flag.FREE_FIRST: (0,), Flag.FREE_PLANE: (1, 2)}
         chain = table.chain
         self.arm = ArmGeometry.of(table, chain.tail(2)[:3, 3])
         drives = chain.coupling[:3]
         expected = [[1, 0, 0], [drives[1, 0], 1, 0], [0, 0, 1]]
         if self.arm.upper or not np.array_equal(drives, expected):
             raise ValueError("the pen robot has axes 2 and 3 on one line, driven by q2 and q3")
-        self._table = table
         self._offset = chain.offset[:3]
         self._from_first = drives[1, 0]
 
-    def pose(self, task):
+    def pose(self, task: np.ndarray) -> np.ndarray:
         return translations(task)
 
-    def kernel(self, poses, near, tol):
+    def closed_form(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Branches:
         point = self.arm.to_arm[:3] @ poses[:, :, 3].T
         anchor = self._offset[0] + (0.0 if near is None else near[0])
         branches, tip = self.arm.in_plane(point, anchor, tol)
@@ -58,61 +57,45 @@ class PenArm(InverseModel):
         off = np.abs(np.abs(tip) - pen)
         valid = branches.valid & (off <= tol)
         q = np.zeros((3, 2, len(poses)))
-        q[0] = np.angle(branches.turn) - self._offset[0]
+        q[0] = np.angle(branches.phasor) - self._offset[0]
         both = np.angle(tip) - np.angle(self.arm.fore) - self._offset[1:].sum()
         both = both - self._from_first * q[0]
         if near is not None:
             q[1] = near[1]
         if pen:
             q[2] = both - q[1]
-            marks = branches.marks | FREE_LINE
+            flags = branches.flags | Flag.FREE_LINE
         else:
             q[2] = 0.0 if near is None else near[2]
-            marks = branches.marks | FREE_PLANE
+            flags = branches.flags | Flag.FREE_PLANE
         inside = ~branches.valid[0]
         reached = valid.any(axis=0)
-        return Answer(
+        return Branches(
             q,
             valid,
-            np.stack([marks, marks]).astype(np.uint8),
+            np.stack([flags, flags]).astype(np.uint8),
             np.where(reached, 0.0, np.where(inside, branches.inside, off.min(axis=0))),
-            np.where(reached, NOTHING, np.where(inside, INSIDE, OFF)),
+            np.where(reached, Failure.NONE, np.where(inside, Failure.INSIDE, Failure.OFF)),
         )
 
-    def label(self, branch, marks):
-        if marks & FREE_FIRST:
+    def label(self, branch: int, flags: int) -> str:
+        if flags & Flag.FREE_FIRST:
             return "tip on axis 1"
-        if marks & SIDEWAYS:
+        if flags & Flag.SIDEWAYS:
             return "tip beside axis 1"
         return "tip behind" if branch else "tip in front"
 
-    def unreachable(self, cause, miss):
-        if cause == LIMITED:
-            return outside_limits(miss)
-        if cause == INSIDE:
-            return self.arm.unreachable("tip", cause, miss)
-        return f"the point is {miss:.3g} m off the surface that the pen tip can reach"
+    def unreachable(self, failure: Failure, excess: float) -> str:
+        if failure == Failure.LIMITED:
+            return outside_limits(excess)
+        if failure == Failure.INSIDE:
+            return self.arm.unreachable("tip", failure, excess)
+        return f"the point is {excess:.3g} m off the surface that the pen tip can reach"
 
     def effective(self, point, tol: float = 1e-9) -> list[tuple[float, float]]:
         """All (theta1, theta2 + theta3) that reach a point (3,), radians, in branch order."""
         q = self.solve(point, tol=tol).q
         return [(float(row[0]), float(wrap(row[1] + row[2]))) for row in q]
-
-    def effective_for_pose(self, T, tol: float = 1e-9) -> tuple[float, float] | None:
-        """(theta1, theta2 + theta3) for a full pose (4, 4) of the pen, or None.
-
-        A pose fixes both at once, and is possible only if its z axis is horizontal, its
-        origin on the surface and its other axes agree; theta2 and theta3 stay inseparable.
-        """
-        T = np.asarray(T, dtype=float)
-        turn = self.arm.to_arm[:3, :3] @ T[:3, :3] @ self._table.chain.tail(2)[:3, :3].T
-        side = self.arm.side
-        first = np.arctan2(side * turn[0, 2], -side * turn[1, 2]) - self._offset[0]
-        both = np.arctan2(side * turn[2, 0], side * turn[2, 1]) - self._offset[1:].sum()
-        both = both - self._from_first * first
-        if np.abs(self._table.forward([first, 0.0, both]) - T).max() > tol:
-            return None
-        return float(wrap(first)), float(wrap(both))
 
     def circles(self, z: float) -> tuple[float, ...]:
         """Radii of the circles the tip can draw on the horizontal sheet at height z, metres.
@@ -127,12 +110,3 @@ class PenArm(InverseModel):
         reach = np.sqrt(pen**2 - height**2)
         radii = {float(np.hypot(self.arm.offset, self.arm.out + s * reach)) for s in (1, -1)}
         return tuple(sorted(radii, reverse=True))
-
-    @property
-    def radii(self) -> tuple[float, float]:
-        """Smallest and largest distance of the tip from axis 1, metres."""
-        pen, out = abs(self.arm.fore), abs(self.arm.out)
-        return (
-            float(np.hypot(self.arm.offset, max(out - pen, 0.0))),
-            float(np.hypot(self.arm.offset, out + pen)),
-        )

@@ -10,9 +10,9 @@ import numpy as np
 
 from dhkit.geometry import SAME_LENGTH, phasor, rotation, two_link, wrap
 
-from .inverse import Answer, InverseModel, JointMap, outside_limits, translations
-from .marks import FOLDED, FREE_CHAIN, FREE_PLANE, STRETCHED, two_link_marks
-from .solutions import BEYOND, LIMITED, NOTHING, OFF, SHORT, TILTED
+from .inverse import Branches, InverseModel, JointMap, translations
+from .limits import outside_limits
+from .status import Failure, Flag, two_link_flags
 from .tables import DHTable
 
 
@@ -29,9 +29,9 @@ class PlanarArm(InverseModel):
     them, one after the other, by as little as needed.
     """
 
-    branches = 2
+    branch_count = 2
 
-    def __init__(self, table: DHTable):
+    def __init__(self, table: DHTable) -> None:
         super().__init__(table)
         chain = table.chain
         n = chain.joints
@@ -39,7 +39,7 @@ class PlanarArm(InverseModel):
         tail = chain.tail(n - 1)
         if n < 2 or not straight or abs(tail[2, 2] - 1.0) > 1e-12:
             raise ValueError("a planar arm has two or more revolute joints with parallel axes")
-        self.revolute = list(range(n))
+        self.revolute = tuple(range(n))
         self.map = JointMap.of(chain)
         height = chain.fixed[1:n].sum() + tail[2, 3]
         plane = chain.base @ chain.row_matrix(0, 0.0)
@@ -56,16 +56,16 @@ class PlanarArm(InverseModel):
         if (self.links <= 0).any():
             raise ValueError("the links of a planar arm have positive lengths")
         self._spare = max(n - 3, 0)
-        self.anchors = {FREE_PLANE: (self._spare,)}
+        self.anchors = {Flag.FREE_PLANE: (self._spare,)}
         if self._spare:
-            self.anchors[FREE_CHAIN] = tuple(range(self._spare))
+            self.anchors[Flag.FREE_CHAIN] = tuple(range(self._spare))
 
     @property
     def reach(self) -> tuple[float, float]:
         """Inner and outer radius, metres: of the tip (n = 2) or of the last joint (n >= 3)."""
         return _reach(self.links)
 
-    def pose(self, task):
+    def pose(self, task: np.ndarray) -> np.ndarray:
         if task.shape[1] != (2 if self.joints == 2 else 3):
             raise ValueError(f"expected the coordinates {self.task}, found {task.shape[1]} numbers")
         poses = translations(task[:, :2])
@@ -73,7 +73,7 @@ class PlanarArm(InverseModel):
             poses[:, :3, :3] = rotation("z", task[:, 2])
         return poses
 
-    def kernel(self, poses, near, tol):
+    def closed_form(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Branches:
         flat = self._to_plane @ poses
         target, height, tilt, heading = _flattened(flat)
         off = np.abs(height)
@@ -87,41 +87,50 @@ class PlanarArm(InverseModel):
         beyond, short = np.abs(target) - most, least - np.abs(target)
 
         q = np.empty((self.joints, 2, len(poses)))
-        rest, direction = target, np.zeros(len(poses))
-        for i in range(self._spare):
-            wished = direction + self.map.row(i, near)
-            placed = _placed(rest, self.links[i], _reach(self.links[i + 1 :]), wished)
-            q[i] = self.map.joint(i, placed - direction)
-            rest, direction = rest - self.links[i] * phasor(placed), placed
+        rest, direction = self._place_spare_links(q, target, near)
         i = self._spare
-        arm = two_link(rest, *self.links[i:], direction + self.map.row(i, near), tol)
+        arm = two_link(rest, self.links[i], self.links[i + 1], direction + self.map.row(i, near), tol)
         q[i] = self.map.joint(i, arm.first - direction)
         q[i + 1] = self.map.joint(i + 1, arm.bend - bend_offset)
         if self.joints > 2:
             q[-1] = self.map.joint(self.joints - 1, heading - arm.first - arm.bend)
 
-        marks = two_link_marks(arm)
-        if self._spare:
-            # The last two links may lie straight by choice, which is no limit of the arm.
-            folded = (short >= -SAME_LENGTH * most) & (least > 0)
-            limit = np.where(folded, FOLDED, FREE_CHAIN)
-            limit = np.where(beyond >= -SAME_LENGTH * most, STRETCHED, limit)
-            marks = (marks & FREE_PLANE) | limit.astype(np.uint8)
+        flags = self._flags_of_chain(two_link_flags(arm), beyond, short) if self._spare else two_link_flags(arm)
         failing = [tilt > tol, off > tol, beyond > tol, short > tol]
-        return Answer(
+        return Branches(
             q,
             arm.valid & ~np.any(failing, axis=0),
-            np.stack([marks, marks]),
+            np.stack([flags, flags]),
             np.select(failing, [tilt, off, beyond, short], 0.0),
-            np.select(failing, [TILTED, OFF, BEYOND, SHORT], NOTHING),
+            np.select(failing, [Failure.TILTED, Failure.OFF, Failure.BEYOND, Failure.SHORT], Failure.NONE),
         )
 
-    def label(self, branch, marks):
-        return _elbow(branch, marks, ("down", "up"))
+    def _place_spare_links(
+        self, q: np.ndarray, target: np.ndarray, near: np.ndarray | None
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Write the first n - 3 joints to q; what of the target is left for the others, and their direction."""
+        direction = np.zeros(len(target))
+        for i in range(self._spare):
+            wished = direction + self.map.row(i, near)
+            placed = _placed(target, self.links[i], _reach(self.links[i + 1 :]), wished)
+            q[i] = self.map.joint(i, placed - direction)
+            target, direction = target - self.links[i] * phasor(placed), placed
+        return target, direction
 
-    def unreachable(self, cause, miss):
+    def _flags_of_chain(self, flags: np.ndarray, beyond: np.ndarray, short: np.ndarray) -> np.ndarray:
+        """Flags of the whole arm: its last two links may lie straight by choice, which is no limit of it."""
+        least, most = self.reach
+        folded = (short >= -SAME_LENGTH * most) & (least > 0)
+        limit = np.where(folded, Flag.FOLDED, Flag.FREE_CHAIN)
+        limit = np.where(beyond >= -SAME_LENGTH * most, Flag.STRETCHED, limit)
+        return (flags & Flag.FREE_PLANE) | limit.astype(np.uint8)
+
+    def label(self, branch: int, flags: int) -> str:
+        return _elbow(branch, flags, ("down", "up"))
+
+    def unreachable(self, failure: Failure, excess: float) -> str:
         point = "point" if self.joints == 2 else "last joint"
-        return _out_of_plane_reach(point, self.reach, cause, miss)
+        return _out_of_plane_reach(point, self.reach, failure, excess)
 
 
 class Scara(InverseModel):
@@ -133,12 +142,11 @@ class Scara(InverseModel):
     """
 
     task = "x, y, z, omega"
-    joints = 4
-    branches = 2
-    revolute = [0, 1, 3]
-    anchors = {FREE_PLANE: (0,)}
+    expected_joints = 4
+    branch_count = 2
+    revolute = (0, 1, 3)
 
-    def __init__(self, table: DHTable):
+    def __init__(self, table: DHTable) -> None:
         super().__init__(table)
         chain = table.chain
         kinds = [False, False, True, False]
@@ -148,6 +156,7 @@ class Scara(InverseModel):
             raise ValueError("a SCARA has parallel axes: revolute, revolute, prismatic, revolute")
         if chain.a[3] or (chain.a[1:3] <= 0).any():
             raise ValueError("a SCARA has two links of positive length")
+        self.anchors = {Flag.FREE_PLANE: (0,)}
         self.links = chain.a[1:3]
         self.map = JointMap.of(chain)
         self._down = np.sign(chain.cos_alpha[3])  # -1 when axis 4 points against axis 1
@@ -165,7 +174,7 @@ class Scara(InverseModel):
         """Inner and outer radius of axis 4 about axis 1, metres."""
         return _reach(self.links)
 
-    def pose(self, task):
+    def pose(self, task: np.ndarray) -> np.ndarray:
         if task.shape[1] != 4:
             raise ValueError(f"expected the coordinates {self.task}, found {task.shape[1]} numbers")
         poses = translations(task[:, :3])
@@ -173,10 +182,10 @@ class Scara(InverseModel):
         poses[:, :3, :3] = poses[:, :3, :3] @ self._home[:3, :3]
         return poses
 
-    def kernel(self, poses, near, tol):
+    def closed_form(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Branches:
         flange = self._to_base @ poses @ self._to_flange
         target, height, tilt, heading = _flattened(flange, self._down)
-        arm = two_link(target, *self.links, self.map.row(0, near), tol)
+        arm = two_link(target, self.links[0], self.links[1], self.map.row(0, near), tol)
         q = np.empty((4, 2, len(poses)))
         q[0] = self.map.joint(0, arm.first)
         q[1] = self.map.joint(1, arm.bend)
@@ -184,22 +193,22 @@ class Scara(InverseModel):
         last = heading - arm.first - arm.bend - self._quill_turn
         q[3] = self.map.joint(3, self._down * last)
         failing = [tilt > tol, arm.beyond > tol, arm.short > tol]
-        return Answer(
+        return Branches(
             q,
             arm.valid & ~failing[0],
-            np.stack([two_link_marks(arm), two_link_marks(arm)]),
+            np.stack([two_link_flags(arm), two_link_flags(arm)]),
             np.select(failing, [tilt, arm.beyond, arm.short], 0.0),
-            np.select(failing, [TILTED, BEYOND, SHORT], NOTHING),
+            np.select(failing, [Failure.TILTED, Failure.BEYOND, Failure.SHORT], Failure.NONE),
         )
 
-    def label(self, branch, marks):
-        return _elbow(branch, marks, ("right", "left"))
+    def label(self, branch: int, flags: int) -> str:
+        return _elbow(branch, flags, ("right", "left"))
 
-    def unreachable(self, cause, miss):
-        return _out_of_plane_reach("tool axis", self.reach, cause, miss)
+    def unreachable(self, failure: Failure, excess: float) -> str:
+        return _out_of_plane_reach("tool axis", self.reach, failure, excess)
 
 
-def _flattened(frames, up: float = 1.0):
+def _flattened(frames: np.ndarray, up: float = 1.0) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Target (complex), height, tilt of the z axis from up and heading of frames (N, 4, 4)."""
     target = frames[:, 0, 3] + 1j * frames[:, 1, 3]
     tilt = np.arctan2(np.hypot(frames[:, 0, 2], frames[:, 1, 2]), up * frames[:, 2, 2])
@@ -207,12 +216,12 @@ def _flattened(frames, up: float = 1.0):
     return target, frames[:, 2, 3], tilt, heading
 
 
-def _reach(links) -> tuple[float, float]:
+def _reach(links: np.ndarray) -> tuple[float, float]:
     """Inner and outer radius a chain of links can reach, metres."""
     return max(0.0, 2.0 * max(links) - sum(links)), sum(links)
 
 
-def _placed(target, link, reach, wished):
+def _placed(target: np.ndarray, link: float, reach: tuple[float, float], wished: np.ndarray) -> np.ndarray:
     """Direction of a link, as near to the wished one as the rest of the arm allows.
 
     The end of the link must lie between the radii ``reach`` from the target; by the law of
@@ -231,21 +240,21 @@ def _placed(target, link, reach, wished):
     return towards + np.copysign(np.clip(np.abs(aside), least, most), aside)
 
 
-def _elbow(branch, marks, sides) -> str:
-    if marks & STRETCHED:
+def _elbow(branch: int, flags: int, sides: tuple[str, str]) -> str:
+    if flags & Flag.STRETCHED:
         return "arm stretched"
-    if marks & (FOLDED | FREE_PLANE):
+    if flags & (Flag.FOLDED | Flag.FREE_PLANE):
         return "arm folded"
     return f"elbow {sides[branch]}"
 
 
-def _out_of_plane_reach(point, reach, cause, miss) -> str:
+def _out_of_plane_reach(point: str, reach: tuple[float, float], failure: Failure, excess: float) -> str:
     least, most = reach
     texts = {
-        BEYOND: f"the {point} is {miss:.3g} m beyond the reach {most:.3g} m",
-        SHORT: f"the {point} is {miss:.3g} m inside the inner limit {least:.3g} m",
-        TILTED: f"the pose is tilted by {miss:.3g} rad, which parallel axes cannot do",
-        OFF: f"the pose is {miss:.3g} m out of the arm's plane",
-        LIMITED: outside_limits(miss),
+        Failure.BEYOND: f"the {point} is {excess:.3g} m beyond the reach {most:.3g} m",
+        Failure.SHORT: f"the {point} is {excess:.3g} m inside the inner limit {least:.3g} m",
+        Failure.TILTED: f"the pose is tilted by {excess:.3g} rad, which parallel axes cannot do",
+        Failure.OFF: f"the pose is {excess:.3g} m out of the arm's plane",
+        Failure.LIMITED: outside_limits(excess),
     }
-    return texts[cause]
+    return texts[failure]

@@ -9,12 +9,14 @@ Lengths in metres, angles in radians, entries numeric or symbolic.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from numbers import Real
+from typing import Any
 
 import numpy as np
 import sympy as sp
+from numpy.typing import ArrayLike
 
 from . import forward as _forward
 from .elementary import (
@@ -34,9 +36,19 @@ _HEADS = (r"\sigma_i", "a_{i-1}", r"\alpha_{i-1}", "d_i", r"\theta_i")
 class DHRow:
     """One row of a modified DH table.
 
-    sigma: 0 revolute, 1 prismatic. a, d: metres. alpha, theta: radians. Numbers or sympy
-    expressions; floats within 1e-12 of a multiple of 15 degrees are taken as exact angles.
-    Raises ValueError naming the entry that is not a number or an expression.
+    Attributes
+    ----------
+    sigma : int
+        0 revolute, 1 prismatic.
+    a, d : number or SymPy expression
+        Metres.
+    alpha, theta : number or SymPy expression
+        Radians; floats within 1e-12 of a multiple of 15 degrees are taken as exact angles.
+
+    Raises
+    ------
+    ValueError
+        Naming the entry that is not a number or an expression.
     """
 
     sigma: int
@@ -45,7 +57,7 @@ class DHRow:
     d: sp.Expr
     theta: sp.Expr
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if isinstance(self.sigma, bool) or self.sigma not in (0, 1):
             raise ValueError(f"sigma must be 0 (revolute) or 1 (prismatic), found {self.sigma!r}")
         object.__setattr__(self, "sigma", int(self.sigma))
@@ -74,77 +86,90 @@ class DHRow:
         """Frame i seen from frame i-1, 4x4."""
         return modified_dh(*self.parameters)
 
-    def inverse(self) -> sp.Matrix:
+    def inverse_transform(self) -> sp.Matrix:
         """Frame i-1 seen from frame i, 4x4."""
         return modified_dh_inverse(*self.parameters)
 
 
-@dataclass(frozen=True)
+Row = DHRow | Sequence[Any]
+"""A row of a table, or its entries (sigma, a, alpha, d, theta)."""
+
+
+@dataclass(frozen=True, init=False)
 class DHTable:
     """A serial robot in modified DH.
 
-    rows: sequence of DHRow or (sigma, a, alpha, d, theta). ``None`` in the place of the joint
-        variable stands for q1, q2, ... A row without joint variable is constant (a tool row).
-    name: for headings and messages.
-    joints: the joint variables in order. By default the one symbol found in each joint entry;
-        needed when an entry holds a symbolic offset (``r3 + r30``) or couples joints.
-    base, tool: constant 4x4 transforms before the first and after the last frame.
-    limits: one (lower, upper) pair per joint, radians or metres; None for no limit.
-    values: numbers for the letters of the table (lengths, offsets), by name. Symbolic results
-        keep the letters, numeric ones use the values.
+    Parameters
+    ----------
+    rows : iterable of DHRow or of (sigma, a, alpha, d, theta)
+        Metres and radians. ``None`` in the place of the joint variable stands for q1, q2, ... A row without joint
+        variable is constant (a tool row).
+    name : str
+        For headings and messages.
+    joints : iterable of Symbol, optional
+        The joint variables in order. By default the one symbol found in each joint entry; needed when an entry holds
+        a symbolic offset (``r3 + r30``) or couples joints.
+    base, tool : 4x4 matrices, optional
+        Constant transforms before the first and after the last frame.
+    limits : iterable of pairs, optional
+        One (lower, upper) per joint, radians or metres.
+    values : mapping, optional
+        Numbers for the letters of the table (lengths, offsets), by name. Symbolic results keep the letters, numeric
+        ones use the values.
 
-    Raises ValueError, in words, for a wrong number of columns, an entry that is not a number
-    or expression, sigma outside {0, 1}, or a joint entry that is not a sum of joints and
-    constants.
+    Raises
+    ------
+    ValueError
+        In words, for a wrong number of columns, an entry that is not a number or expression, sigma outside {0, 1}, or
+        a joint entry that is not a sum of joints and constants.
+
+    Source: template of the MECA 953 slides; W. Khalil, J. Kleinfinger, "A new geometric notation for open and
+    closed-loop robots", ICRA 1986, doi:10.1109/ROBOT.1986.1087552.
     """
 
     rows: tuple[DHRow, ...]
-    name: str = ""
-    joints: tuple[sp.Symbol, ...] | None = None
-    base: sp.ImmutableMatrix | None = None
-    tool: sp.ImmutableMatrix | None = None
-    limits: tuple[tuple[float, float], ...] | None = None
-    values: Mapping[str, float] = field(default_factory=dict, hash=False)
+    name: str
+    joints: tuple[sp.Symbol, ...]
+    base: sp.ImmutableMatrix
+    tool: sp.ImmutableMatrix
+    limits: tuple[tuple[float, float], ...] | None
+    values: Mapping[str, float] = field(hash=False)
+    _coupling: tuple[sp.Matrix, list[sp.Expr]] = field(init=False, repr=False, compare=False)
 
-    def __post_init__(self):
-        rows = tuple(_row(row, i) for i, row in enumerate(self.rows, start=1))
-        if not rows:
+    def __init__(
+        self,
+        rows: Iterable[Row],
+        name: str = "",
+        joints: Iterable[sp.Symbol] | None = None,
+        base: sp.Matrix | None = None,
+        tool: sp.Matrix | None = None,
+        limits: Iterable[tuple[float, float]] | None = None,
+        values: Mapping[str, float] | None = None,
+    ) -> None:
+        checked = tuple(_row(row, i) for i, row in enumerate(rows, start=1))
+        if not checked:
             raise ValueError("a DH table needs at least one row")
-        joints = _found_joints(rows) if self.joints is None else tuple(self.joints)
-        if len(set(joints)) != len(joints):
-            raise ValueError(f"a joint variable stands in two rows: {joints}; name them in joints=")
-        object.__setattr__(self, "rows", rows)
-        object.__setattr__(self, "joints", joints)
-        object.__setattr__(self, "base", _transform(self.base, "base"))
-        object.__setattr__(self, "tool", _transform(self.tool, "tool"))
-        object.__setattr__(self, "limits", _checked_limits(self.limits, joints))
-        self._coupling  # fails now, with a message, rather than at the first use
-
-    @cached_property
-    def _coupling(self) -> tuple[sp.Matrix, list[sp.Expr]]:
-        """Matrix and offsets with row variables = matrix * joints + offsets."""
-        matrix = sp.zeros(len(self.rows), len(self.joints))
-        offsets = []
-        for i, row in enumerate(self.rows):
-            rest = row.variable
-            for j, joint in enumerate(self.joints):
-                matrix[i, j] = row.variable.diff(joint)
-                rest = rest - matrix[i, j] * joint
-            rest = sp.expand(rest)
-            if not all(entry.is_number for entry in matrix[i, :]) or rest.has(*self.joints):
-                raise ValueError(
-                    f"row {i + 1}: the joint entry {row.variable} must be a sum of joint variables and constants"
-                )
-            offsets.append(rest)
-        return matrix, offsets
+        variables = _found_joints(checked) if joints is None else tuple(joints)
+        if len(set(variables)) != len(variables):
+            raise ValueError(f"a joint variable stands in two rows: {variables}; name them in joints=")
+        self.__dict__.update(
+            rows=checked,
+            name=name,
+            joints=variables,
+            base=_transform(base, "base"),
+            tool=_transform(tool, "tool"),
+            limits=_checked_limits(limits, variables),
+            values=dict(values or {}),
+            _coupling=_coupled(checked, variables),
+        )
 
     def transforms(self) -> list[sp.Matrix]:
         """The elementary transforms [0T1, 1T2, ...], one 4x4 per row."""
         return [row.transform() for row in self.rows]
 
-    def inverses(self) -> list[sp.Matrix]:
-        """The inverse transforms [1T0, 2T1, ...], one 4x4 per row."""
-        return [row.inverse() for row in self.rows]
+    def inverse_transforms(self) -> list[sp.Matrix]:
+        """The transforms [1T0, 2T1, ...], one 4x4 per row."""
+        return [row.inverse_transform() for row in self.rows]
 
     def product(self) -> sp.Matrix:
         """base 0T1 1T2 ... tool multiplied out as it stands, nothing merged."""
@@ -153,8 +178,8 @@ class DHTable:
             result = result * transform
         return result * self.tool
 
-    def inverse(self) -> sp.Matrix:
-        """Inverse of the direct model: the base seen from the tool, 4x4."""
+    def inverse_transform(self) -> sp.Matrix:
+        """The base seen from the tool, 4x4: the inverse matrix of `symbolic_forward`."""
         return rigid_inverse(self.symbolic_forward())
 
     def recursion(self) -> list[sp.Matrix]:
@@ -162,11 +187,11 @@ class DHTable:
         return _forward.recursion(self.rows, self.tool)
 
     def symbolic_forward(self) -> sp.Matrix:
-        """Direct model as a 4x4 sympy matrix in textbook form (parallel axes merged)."""
+        """Forward kinematics as a 4x4 SymPy matrix in textbook form (parallel axes merged)."""
         return self.base * self.recursion()[0]
 
-    def forward(self, q) -> np.ndarray:
-        """Direct model: q of shape (..., n), radians or metres -> poses (..., 4, 4)."""
+    def forward(self, q: ArrayLike) -> np.ndarray:
+        """Forward kinematics: q of shape (..., n), radians or metres -> poses (..., 4, 4)."""
         return self.chain.forward(q)
 
     @cached_property
@@ -197,7 +222,7 @@ class DHTable:
             tool=_numbers(self.tool).reshape(4, 4),
         )
 
-    def at(self, values: Mapping) -> DHTable:
+    def at(self, values: Mapping[Any, Any]) -> DHTable:
         """The same table with symbols replaced: ``table.at({"a2": 0.3, d3: 0.1})``.
 
         Keys are symbols or their names. Raises ValueError for a name the table does not use.
@@ -209,15 +234,19 @@ class DHTable:
         if unknown:
             raise ValueError(f"no symbol {', '.join(unknown)} in the table: it has {sorted(known)}")
         chosen = {known[name]: value for name, value in by_name.items()}
-        rows = [DHRow(row.sigma, *(entry.subs(chosen) for entry in row.parameters)) for row in self.rows]
-        return replace(
-            self,
-            rows=rows,
-            joints=tuple(joint for joint in self.joints if joint not in chosen),
-            base=self.base.subs(chosen),
-            tool=self.tool.subs(chosen),
-            values={name: v for name, v in self.values.items() if name not in by_name},
+        return DHTable(
+            [DHRow(row.sigma, *(entry.subs(chosen) for entry in row.parameters)) for row in self.rows],
+            self.name,
+            [joint for joint in self.joints if joint not in chosen],
+            self.base.subs(chosen),
+            self.tool.subs(chosen),
+            self.limits,
+            {name: value for name, value in self.values.items() if name not in by_name},
         )
+
+    def with_values(self, values: Mapping[str, float], limits: Iterable[tuple[float, float]] | None = None) -> DHTable:
+        """The same table with numbers behind its letters, and joint limits."""
+        return DHTable(self.rows, self.name, self.joints, self.base, self.tool, limits, values)
 
     def to_classic(self) -> ClassicTable:
         """The same robot in classic DH: column a_i, alpha_i moved up by one row."""
@@ -228,17 +257,16 @@ class DHTable:
         return ClassicTable(rows, self.name, self.joints, sp.ImmutableMatrix(base), self.tool, self.values)
 
     @classmethod
-    def from_classic(cls, rows: Iterable, **options) -> DHTable:
+    def from_classic(cls, rows: Iterable[Row], *, tool: sp.Matrix | None = None, **options: Any) -> DHTable:
         """A modified table from classic rows (sigma, a_i, alpha_i, d_i, theta_i).
 
         The last a_n, alpha_n become part of the tool. Options as for DHTable.
         """
-        rows = [_row(row, i) for i, row in enumerate(rows, start=1)]
-        shifted = [(sp.S.Zero, sp.S.Zero)] + [(row.a, row.alpha) for row in rows]
-        modified = [DHRow(row.sigma, a, alpha, row.d, row.theta) for row, (a, alpha) in zip(rows, shifted)]
+        classic = [_row(row, i) for i, row in enumerate(rows, start=1)]
+        shifted = [(sp.S.Zero, sp.S.Zero)] + [(row.a, row.alpha) for row in classic]
+        modified = [DHRow(row.sigma, a, alpha, row.d, row.theta) for row, (a, alpha) in zip(classic, shifted)]
         a, alpha = shifted[-1]
-        tool = trans_x(a) * rot_x(alpha) * _transform(options.pop("tool", None), "tool")
-        return cls(modified, tool=tool, **options)
+        return cls(modified, tool=trans_x(a) * rot_x(alpha) * _transform(tool, "tool"), **options)
 
     def to_markdown(self) -> str:
         """The table in the slides' layout (i, sigma_i, a_{i-1}, alpha_{i-1}, d_i, theta_i)."""
@@ -284,24 +312,24 @@ class ClassicTable:
         )
 
 
-def _row(row, index: int) -> DHRow:
+def _row(row: Row, index: int) -> DHRow:
     if isinstance(row, DHRow):
         return row
     if isinstance(row, str) or not isinstance(row, (Sequence, np.ndarray, sp.MatrixBase)):
         raise ValueError(f"row {index}: expected {', '.join(_COLUMNS)}, found {row!r}")
-    row = list(row)
-    if len(row) != len(_COLUMNS):
-        raise ValueError(f"row {index}: expected {len(_COLUMNS)} columns ({', '.join(_COLUMNS)}), found {len(row)}")
-    place = 3 if row[0] == 1 else 4
-    if row[place] is None:
-        row[place] = sp.Symbol(f"q{index}", real=True)
+    entries = list(row)
+    if len(entries) != len(_COLUMNS):
+        raise ValueError(f"row {index}: expected {len(_COLUMNS)} columns ({', '.join(_COLUMNS)}), found {len(entries)}")
+    place = 3 if entries[0] == 1 else 4
+    if entries[place] is None:
+        entries[place] = sp.Symbol(f"q{index}", real=True)
     try:
-        return DHRow(*row)
+        return DHRow(*entries)
     except ValueError as error:
         raise ValueError(f"row {index}: {error}") from None
 
 
-def _expression(value, column: str) -> sp.Expr:
+def _expression(value: Any, column: str) -> sp.Expr:
     if isinstance(value, (Real, sp.Expr)) and not isinstance(value, bool):
         expression = _exact_integer(sp.sympify(value))
         possible = expression.is_finite is not False and expression.is_extended_real is not False
@@ -317,8 +345,8 @@ def _exact_integer(expression: sp.Expr) -> sp.Expr:
     return expression
 
 
-def _found_joints(rows) -> tuple[sp.Symbol, ...]:
-    joints = []
+def _found_joints(rows: Iterable[DHRow]) -> tuple[sp.Symbol, ...]:
+    joints: list[sp.Symbol] = []
     for i, row in enumerate(rows, start=1):
         symbols = row.variable.free_symbols
         if len(symbols) > 1:
@@ -330,26 +358,46 @@ def _found_joints(rows) -> tuple[sp.Symbol, ...]:
     return tuple(joints)
 
 
-def _transform(value, what: str) -> sp.ImmutableMatrix:
+def _coupled(rows: Sequence[DHRow], joints: Sequence[sp.Symbol]) -> tuple[sp.Matrix, list[sp.Expr]]:
+    """Matrix and offsets with row variables = matrix * joints + offsets."""
+    matrix = sp.zeros(len(rows), len(joints))
+    offsets = []
+    for i, row in enumerate(rows):
+        rest = row.variable
+        for j, joint in enumerate(joints):
+            matrix[i, j] = row.variable.diff(joint)
+            rest = rest - matrix[i, j] * joint
+        rest = sp.expand(rest)
+        if not all(entry.is_number for entry in matrix[i, :]) or rest.has(*joints):
+            raise ValueError(
+                f"row {i + 1}: the joint entry {row.variable} must be a sum of joint variables and constants"
+            )
+        offsets.append(rest)
+    return matrix, offsets
+
+
+def _transform(value: Any, what: str) -> sp.ImmutableMatrix:
     matrix = sp.eye(4) if value is None else sp.Matrix(value).applyfunc(_exact_integer)
     if matrix.shape != (4, 4) or list(matrix[3, :]) != [0, 0, 0, 1]:
         raise ValueError(f"{what} must be a 4x4 transform with last row 0 0 0 1")
     return sp.ImmutableMatrix(matrix)
 
 
-def _checked_limits(limits, joints):
+def _checked_limits(
+    limits: Iterable[tuple[float, float]] | None, joints: Sequence[sp.Symbol]
+) -> tuple[tuple[float, float], ...] | None:
     if limits is None:
         return None
-    limits = tuple((float(low), float(high)) for low, high in limits)
-    if len(limits) != len(joints):
-        raise ValueError(f"expected {len(joints)} pairs of joint limits, found {len(limits)}")
-    for joint, (low, high) in zip(joints, limits):
+    checked = tuple((float(low), float(high)) for low, high in limits)
+    if len(checked) != len(joints):
+        raise ValueError(f"expected {len(joints)} pairs of joint limits, found {len(checked)}")
+    for joint, (low, high) in zip(joints, checked):
         if not low <= high:
             raise ValueError(f"limits of {joint}: lower {low} is above upper {high}")
-    return limits
+    return checked
 
 
-def _numbers(entries) -> np.ndarray:
+def _numbers(entries: Iterable[sp.Expr]) -> np.ndarray:
     return np.array([float(entry) for entry in entries])
 
 

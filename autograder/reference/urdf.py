@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import sympy as sp
@@ -22,9 +23,16 @@ from .tables import DHTable
 class UrdfJoint:
     """One joint of a URDF file.
 
-    xyz: origin in the parent frame, metres. rpy: roll, pitch, yaw about the fixed x, y, z
-    axes, radians. axis: direction in the joint frame. kind: "revolute" (also for
-    "continuous"), "prismatic" or "fixed".
+    Attributes
+    ----------
+    xyz : three floats
+        Origin in the parent frame, metres.
+    rpy : three floats
+        Roll, pitch, yaw about the fixed x, y, z axes, radians.
+    axis : three floats
+        Direction in the joint frame.
+    kind : str
+        "revolute" or "continuous", "prismatic", or "fixed".
     """
 
     xyz: tuple[float, float, float]
@@ -41,10 +49,12 @@ class UrdfJoint:
         return frame
 
 
-def table_from_urdf(joints: Sequence[UrdfJoint], name: str = "", limits=None) -> DHTable:
+def table_from_urdf(
+    joints: Sequence[UrdfJoint], name: str = "", limits: Sequence[tuple[float, float]] | None = None
+) -> DHTable:
     """DHm table of a serial chain of URDF joints; joint variables q1, q2, ...
 
-    The base and tool of the table make its direct model equal to the URDF's: base link to the
+    The base and tool of the table make its forward kinematics equal to the URDF's: base link to the
     frame of the last joint, fixed joints included. Where DH leaves X_i free it is chosen as
     near to X_{i-1} as possible (joint offset in [-90, 90] degrees), and if that does not
     decide, so that a_i >= 0. Source: joint list of the MECA 953 slides, whose axes
@@ -67,7 +77,7 @@ def table_from_urdf(joints: Sequence[UrdfJoint], name: str = "", limits=None) ->
         d = float(axis @ (foot - origin))
         theta = _angle(x, next_x, axis)
         joint = sp.Symbol(f"q{i + 1}")
-        entries = [_tidy(d), theta]
+        entries: list[Any] = [_tidy(d), theta]
         entries[1 - sigma] += joint
         rows.append((sigma, _tidy(a), alpha, *entries))
         x, z, a = next_x, axis, next_a
@@ -81,7 +91,9 @@ def table_from_urdf(joints: Sequence[UrdfJoint], name: str = "", limits=None) ->
     return DHTable(rows, name=name, base=_tidy(base), tool=_tidy(tool), limits=limits)
 
 
-def _axes_at_zero(joints):
+def _axes_at_zero(
+    joints: Sequence[UrdfJoint],
+) -> tuple[list[np.ndarray], list[np.ndarray], list[int], np.ndarray]:
     """Points on the axes, axis directions and sigmas in the base frame, and the last frame."""
     frame = np.eye(4)
     points, axes, sigmas = [], [], []
@@ -100,7 +112,7 @@ def _axes_at_zero(joints):
     return points, axes, sigmas, frame
 
 
-def _base_frame(point, axis) -> np.ndarray:
+def _base_frame(point: np.ndarray, axis: np.ndarray) -> np.ndarray:
     """Frame 0: the URDF base if its z axis is axis 1, else a frame placed on axis 1."""
     on_z = np.hypot(axis[0], axis[1]) < PARALLEL and np.hypot(point[0], point[1]) < TOUCHING
     if on_z and axis[2] > 0:
@@ -114,7 +126,9 @@ def _base_frame(point, axis) -> np.ndarray:
     return frame
 
 
-def _next_link(origin, axis, next_point, next_axis, previous_x):
+def _next_link(
+    origin: np.ndarray, axis: np.ndarray, next_point: np.ndarray, next_axis: np.ndarray, previous_x: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, float]:
     """Foot of the common normal on the axis, X direction and signed length a to the next axis."""
     normal = common_normal((origin, axis), (next_point, next_axis))
     across = normal.feet[1] - normal.feet[0]
@@ -130,12 +144,12 @@ def _next_link(origin, axis, next_point, next_axis, previous_x):
     return normal.feet[0], x, float(across @ x)
 
 
-def _angle(start, end, about) -> float:
+def _angle(start: np.ndarray, end: np.ndarray, about: np.ndarray) -> float:
     """Angle from one vector to another about an axis perpendicular to both, radians."""
     return float(np.arctan2(np.cross(start, end) @ about, start @ end))
 
 
-def _tidy(values):
+def _tidy(values: Any) -> Any:
     """Numbers without rounding noise: 0.75 for 0.7500000000000001, 0 for 1e-17."""
     short = np.round(values, 9) + 0.0
     tidied = np.where(np.abs(values - short) < 1e-14, short, values)

@@ -9,14 +9,30 @@ Sources: DH-m slides (Romanian), where the workspace is the image of a grid of
 joint values and the RR arm the example; what they leave open is the area.
 """
 
+from __future__ import annotations
+
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
+
+
+class HasForward(Protocol):
+    """A robot with forward kinematics."""
+
+    def forward(self, q: ArrayLike, /) -> np.ndarray:
+        """Poses (..., 4, 4) or points (..., 2 or 3) for joint values q (..., n)."""
+        ...
+
+
+Robot: TypeAlias = HasForward | Callable[[np.ndarray], np.ndarray]
 
 _BLOCK = 1 << 15  # joint vectors at a time: bounds the memory, keeps the work in the cache
 
 
-def grid(robot, limits, counts):
+def grid(robot: Robot, limits: ArrayLike, counts: ArrayLike) -> np.ndarray:
     """Image of a regular grid of joint values, both limits included.
 
     Parameters
@@ -30,34 +46,33 @@ def grid(robot, limits, counts):
     array, shape (counts[0], ..., counts[n-1], 2 or 3): the point p_{i,j,...}
     belongs to the i-th value of joint 1 and the j-th value of joint 2.
     """
-    limits = _limits(limits)
-    counts = tuple(int(c) for c in np.broadcast_to(counts, len(limits)))
-    if min(counts) < 1:
-        raise ValueError(f"every joint needs at least one value, found counts {counts}")
-    values = [np.linspace(low, high, c) for (low, high), c in zip(limits, counts)]
-    total = int(np.prod(counts))
+    ranges = _limits(limits)
+    shape = tuple(int(c) for c in np.broadcast_to(counts, len(ranges)))
+    if min(shape) < 1:
+        raise ValueError(f"every joint needs at least one value, found counts {shape}")
+    values = [np.linspace(low, high, c) for (low, high), c in zip(ranges, shape)]
 
-    def joints(block):
-        places = np.unravel_index(np.arange(block.start, block.stop), counts)
+    def joints(block: slice) -> np.ndarray:
+        places = np.unravel_index(np.arange(block.start, block.stop), shape)
         return np.stack([v[p] for v, p in zip(values, places)], axis=-1)
 
-    return _in_blocks(robot, joints, total).reshape(counts + (-1,))
+    return _in_blocks(robot, joints, int(np.prod(shape))).reshape((*shape, -1))
 
 
-def sample(robot, limits, count, rng):
+def sample(robot: Robot, limits: ArrayLike, count: int, rng: np.random.Generator) -> np.ndarray:
     """Points of `count` joint vectors drawn uniformly between the limits.
 
     rng : numpy.random.Generator. Returns (count, 2 or 3).
     """
     low, high = _limits(limits).T
 
-    def joints(block):
+    def joints(block: slice) -> np.ndarray:
         return rng.uniform(low, high, (block.stop - block.start, len(low)))
 
     return _in_blocks(robot, joints, count)
 
 
-def planar_points(lengths, q):
+def planar_points(lengths: ArrayLike, q: ArrayLike) -> np.ndarray:
     """End point of a planar arm with n parallel revolute joints.
 
     lengths: shape (n,); q: shape (..., n), each angle from the link before.
@@ -79,28 +94,18 @@ def planar_points(lengths, q):
     return points.reshape(q.shape[:-1] + (2,))
 
 
-def rr_grid(l1, l2, q1, q2):
+def rr_grid(l1: float, l2: float, q1: ArrayLike, q2: ArrayLike) -> np.ndarray:
     """All points p_ij of the RR arm for q1 (n,) and q2 (m,): shape (n, m, 2).
 
     As complex numbers ``p_ij = e^{i q1_i} (l1 + l2 e^{i q2_j})``: an outer product,
     with n + m cosines and sines where the formula of the slides takes n + n m.
     """
-    turn = np.exp(1j * np.asarray(q1, float))
+    phasor = np.exp(1j * np.asarray(q1, float))
     arm = l1 + l2 * np.exp(1j * np.asarray(q2, float))
-    return np.multiply.outer(turn, arm).view(float).reshape(turn.size, arm.size, 2)
+    return np.multiply.outer(phasor, arm).view(float).reshape(phasor.size, arm.size, 2)
 
 
-def radii(points):
-    """Inner and outer radius of points (..., d) about the origin.
-
-    For the distance from axis z give the columns x and y only. A cloud
-    underestimates the outer and overestimates the inner radius.
-    """
-    distance = np.linalg.norm(np.asarray(points, float), axis=-1)
-    return float(distance.min()), float(distance.max())
-
-
-def cross_section(robot, limits, count, rng):
+def cross_section(robot: Robot, limits: ArrayLike, count: int, rng: np.random.Generator) -> np.ndarray:
     """Half-plane section (rho, z) of a spatial arm whose joint 1 turns about base axis z.
 
     `count` random postures, shape (count, 2). The workspace is this section turned
@@ -111,11 +116,11 @@ def cross_section(robot, limits, count, rng):
     ValueError
         If joint 1 changes rho or z: the section would depend on it.
     """
-    limits = _limits(limits)
-    probe = np.tile(limits.mean(axis=1), (2, 1))
+    ranges = _limits(limits)
+    probe = np.tile(ranges.mean(axis=1), (2, 1))
     probe[1, 0] += 1.0
-    held = limits.copy()
-    held[0] = limits[0, 0]
+    held = ranges.copy()
+    held[0] = ranges[0, 0]
     start = rng.bit_generator.state
     tried = _section(_positions(robot, probe))
     rng.bit_generator.state = start
@@ -137,18 +142,18 @@ class Cells:
     filled: np.ndarray
 
     @property
-    def area(self):
+    def area(self) -> float:
         """Area of the filled cells, square metres: about half a cell too wide all around."""
         return float(self.filled.sum() * self.size**2)
 
-    def boundary(self):
+    def boundary(self) -> np.ndarray:
         """Centres of the filled cells beside an empty one, shape (k, 2): outline and holes."""
         padded = np.pad(self.filled, 1)
         enclosed = padded[:-2, 1:-1] & padded[2:, 1:-1] & padded[1:-1, :-2] & padded[1:-1, 2:]
         return self.corner + (np.argwhere(self.filled & ~enclosed) + 0.5) * self.size
 
 
-def cells(points, size):
+def cells(points: ArrayLike, size: float) -> Cells:
     """Raster of a plane cloud (..., 2), or of (rho, z), with square cells of `size` metres.
 
     Take enough points (ten per cell) or the raster has holes that the workspace has not.
@@ -182,7 +187,7 @@ class RRArm:
     q1: tuple[float, float] = (-np.pi, np.pi)
     q2: tuple[float, float] = (-np.pi, np.pi)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("l1", "l2"):
             if not 0 < getattr(self, name) < np.inf:
                 raise ValueError(f"{name} is a positive length, found {getattr(self, name)}")
@@ -191,12 +196,12 @@ class RRArm:
             if not -np.inf < low <= high < np.inf:
                 raise ValueError(f"{name} is a range (lower, upper), found {(low, high)}")
 
-    def radii(self):
+    def radii(self) -> tuple[float, float]:
         """Inner and outer radius of the workspace, exact."""
         r = self._radius(np.array(self._corners()))
         return float(r.min()), float(r.max())
 
-    def sheet_area(self):
+    def sheet_area(self) -> float:
         """Area by the textbook formula l1 l2 (q1max - q1min) |cos q2min - cos q2max|.
 
         Raises
@@ -210,9 +215,9 @@ class RRArm:
             raise ValueError(
                 "the range of q2 has a stretched or folded arm inside: two sheets that may overlap, use area()"
             )
-        return self.l1 * self.l2 * self._turn * abs(np.cos(self.q2[0]) - np.cos(self.q2[1]))
+        return float(self.l1 * self.l2 * self._span * abs(np.cos(self.q2[0]) - np.cos(self.q2[1])))
 
-    def area(self):
+    def area(self) -> float:
         """Exact area in square metres, points met by both sheets counted once.
 
         At radius r one sheet covers an arc of the width W of the range of q1. Two
@@ -225,19 +230,19 @@ class RRArm:
         total = 0.0
         for low, high, s in zip(ends[:-1], ends[1:], middles):
             sheets = sum(self._sheets(s))
-            arc, slope = sheets * self._turn, 0.0
+            arc, slope = sheets * self._span, 0.0
             if sheets == 2:
                 psi = self._psi(s)
-                if self._turn > 2 * psi:
-                    arc, slope = arc - self._turn, slope + 2
-                if self._turn > 2 * np.pi - 2 * psi:
-                    arc, slope = arc - self._turn + 2 * np.pi, slope - 2
+                if self._span > 2 * psi:
+                    arc, slope = arc - self._span, slope + 2
+                if self._span > 2 * np.pi - 2 * psi:
+                    arc, slope = arc - self._span + 2 * np.pi, slope - 2
             total += arc * self.l1 * self.l2 * (np.cos(low) - np.cos(high)) + slope * (
                 self._psi_integral(high) - self._psi_integral(low)
             )
         return float(total)
 
-    def contains(self, points, tolerance=1e-9):
+    def contains(self, points: ArrayLike, tolerance: float = 1e-9) -> np.ndarray:
         """Whether points (..., 2) can be reached, within `tolerance` radians and metres."""
         x, y = np.moveaxis(np.asarray(points, float), -1, 0)
         r = np.hypot(x, y)
@@ -252,15 +257,16 @@ class RRArm:
             inside |= _within(bend, self.q2, tolerance) & (_within(first, self.q1, tolerance) | free)
         return in_reach & inside
 
-    def boundary(self, step=0.01):
+    def boundary(self, step: float = 0.01) -> list[np.ndarray]:
         """Outline of the workspace: list of curves (k, 2), points at most `step` radians apart.
 
         The arcs of the joint limits and of the stretched and folded arm, without the
         parts that lie inside the workspace.
         """
         inner = [s for s in (0.0, np.pi) if _within(s, self.q2, 0)]
+        curves: list[tuple[ArrayLike, ArrayLike]]
         curves = [(self._ramp(self.q1, step), q2) for q2 in dict.fromkeys([*self.q2, *inner])]
-        if self._turn < 2 * np.pi:
+        if self._span < 2 * np.pi:
             curves += [(q1, self._ramp(self.q2, step)) for q1 in self.q1]
         outline = []
         for q1, q2 in curves:
@@ -274,57 +280,58 @@ class RRArm:
         return outline
 
     @property
-    def _turn(self):
+    def _span(self) -> float:
+        """Range of joint 1, at most a full turn."""
         return min(self.q1[1] - self.q1[0], 2 * np.pi)
 
-    def _corners(self):
+    def _corners(self) -> list[float]:
         """Elbow angles in [0, pi] between which the radius is extreme or a sheet ends."""
         ends = [abs(float(np.angle(np.exp(1j * q)))) for q in self.q2]
         return ends + [s for s in (0.0, np.pi) if _within(s, self.q2, 1e-12)]
 
-    def _pieces(self):
+    def _pieces(self) -> tuple[np.ndarray, np.ndarray]:
         """Ends and middles of the elbow angles between which `area` has one formula."""
         ends = {0.0, np.pi, *self._corners()}
-        for psi in (self._turn / 2, np.pi - self._turn / 2):
+        for psi in (self._span / 2, np.pi - self._span / 2):
             lean = self.l1 * np.sin(psi) / self.l2
             if abs(lean) <= 1:
                 ends |= {psi + np.arcsin(lean), psi + np.pi - np.arcsin(lean)}
-        ends = np.array(sorted(s for s in ends if 0 <= s <= np.pi))
-        ends = ends[np.append(True, np.diff(ends) > 1e-12)]
-        return ends, (ends[:-1] + ends[1:]) / 2
+        inside = np.array(sorted(s for s in ends if 0 <= s <= np.pi))
+        apart = inside[np.append(True, np.diff(inside) > 1e-12)]
+        return apart, (apart[:-1] + apart[1:]) / 2
 
-    def _sheets(self, s):
+    def _sheets(self, s: float) -> tuple[bool, bool]:
         return bool(_within(s, self.q2, 0)), bool(_within(-s, self.q2, 0))
 
-    def _radius(self, s):
+    def _radius(self, s: float | np.ndarray) -> np.ndarray:
         return np.sqrt(np.maximum(self.l1**2 + self.l2**2 + 2 * self.l1 * self.l2 * np.cos(s), 0))
 
-    def _psi(self, s):
+    def _psi(self, s: float) -> float:
         return np.arctan2(self.l2 * np.sin(s), self.l1 + self.l2 * np.cos(s))
 
-    def _psi_integral(self, s):
+    def _psi_integral(self, s: float) -> float:
         """Integral of psi l1 l2 sin(s) ds."""
         return (self.l2**2 * s + self.l1 * self.l2 * np.sin(s) - self._psi(s) * self._radius(s) ** 2) / 2
 
-    def _on_edge(self, points):
+    def _on_edge(self, points: np.ndarray) -> np.ndarray:
         """Whether a point of some limit curve has unreachable points beside it."""
         around = np.exp(1j * np.arange(16) * np.pi / 8) * 1e-6 * (self.l1 + self.l2)
         beside = points[:, None] + np.stack([around.real, around.imag], axis=-1)
-        return ~self.contains(beside).all(axis=1)
+        return np.asarray(~self.contains(beside).all(axis=1))
 
     @staticmethod
-    def _ramp(limits, step):
+    def _ramp(limits: tuple[float, float], step: float) -> np.ndarray:
         low, high = limits[0], min(limits[1], limits[0] + 2 * np.pi)
         return np.linspace(low, high, max(2, int(np.ceil((high - low) / step)) + 1))
 
 
-def _within(angle, limits, tolerance):
+def _within(angle: ArrayLike, limits: tuple[float, float], tolerance: float) -> np.ndarray:
     """Whether an angle lies in a range, modulo full turns."""
     past = np.mod(np.asarray(angle) - limits[0] + tolerance, 2 * np.pi)
     return past <= limits[1] - limits[0] + 2 * tolerance
 
 
-def _limits(limits):
+def _limits(limits: ArrayLike) -> np.ndarray:
     limits = np.asarray(limits, float)
     if limits.ndim != 2 or limits.shape[1] != 2 or not np.isfinite(limits).all():
         raise ValueError(f"limits are finite pairs (lower, upper), one per joint, found shape {limits.shape}")
@@ -333,25 +340,20 @@ def _limits(limits):
     return limits
 
 
-def _blocks(total):
+def _blocks(total: int) -> list[slice]:
     return [slice(start, min(start + _BLOCK, total)) for start in range(0, total, _BLOCK)]
 
 
-def _in_blocks(robot, joints, total):
+def _in_blocks(robot: Robot, joints: Callable[[slice], np.ndarray], total: int) -> np.ndarray:
     if total < 1:
         raise ValueError(f"at least one point is needed, found {total}")
-    points = None
-    for block in _blocks(total):
-        part = _positions(robot, joints(block))
-        if points is None:
-            points = np.empty((total, part.shape[-1]))
-        points[block] = part
-    return points
+    return np.concatenate([_positions(robot, joints(block)) for block in _blocks(total)])
 
 
-def _positions(robot, q):
+def _positions(robot: Robot, q: np.ndarray) -> np.ndarray:
     """Points of poses (..., 4, 4), or the points themselves."""
-    result = np.asarray(getattr(robot, "forward", robot)(q))
+    forward: Any = getattr(robot, "forward", robot)
+    result = np.asarray(forward(q))
     if result.shape == q.shape[:-1] + (4, 4):
         return result[..., :3, 3]
     if result.shape[:-1] == q.shape[:-1] and result.shape[-1] in (2, 3):
@@ -362,5 +364,5 @@ def _positions(robot, q):
     )
 
 
-def _section(points):
+def _section(points: np.ndarray) -> np.ndarray:
     return np.stack([np.hypot(points[..., 0], points[..., 1]), points[..., 2]], axis=-1)

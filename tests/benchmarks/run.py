@@ -90,14 +90,14 @@ def inverse():
     )
     must_equal(peer_robot.fwdKin(np.full(6, 0.3)), ARM.forward(np.full(6, 0.3)), "the two robots")
     ours, alone, default = best(
-        lambda: ARM.solve_batch(poses),
+        lambda: ARM.inverse_batch(poses),
         lambda: peer_robot.IK_batched(poses, 1),
         lambda: peer_robot.IK_batched(poses),
         turns=4,
     )
-    postures = int(ARM.solve_batch(poses).count.sum())
+    postures = int(ARM.inverse_batch(poses).count.sum())
     theirs = sum(len(found.Q) for found in peer_robot.IK_batched(poses[:2000]))
-    must_equal(theirs, int(ARM.solve_batch(poses[:2000]).count.sum()), "numbers of postures")
+    must_equal(theirs, int(ARM.inverse_batch(poses[:2000]).count.sum()), "numbers of postures")
     what = f"inverse, {POSES:,} poses of the RX-90, {postures / POSES:.0f} postures each"
     return [
         Row(

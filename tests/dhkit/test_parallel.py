@@ -52,7 +52,7 @@ def test_the_legs_join_anchors_and_platform_and_their_lengths_are_written():
 @pytest.mark.parametrize("lengths", [SIX, (1.0, 0.5, 1.0), (0.9, 0.9, 0.8), (0.6, 1.2, 0.7)])
 def test_every_assembly_mode_lies_on_the_coupler_curve(lengths):
     paths = parallel.coupler_curve(BASE, PLATFORM, lengths)
-    for pose in ROBOT.direct(lengths).listed():
+    for pose in ROBOT.forward(lengths).listed():
         point = parallel.platform_points(PLATFORM, pose)[2]
         assert min(np.hypot(*(path - point).T).min() for path in paths) < 0.02
     for path in paths:
@@ -67,7 +67,7 @@ def test_legs_that_cannot_close_have_no_coupler_curve():
 
 @pytest.mark.parametrize("lengths", [SIX, (1.0, 0.5, 1.2), (0.1, 0.1, 0.1)])
 def test_a_gallery_numbers_its_pictures_or_says_that_there_are_none(lengths):
-    modes = ROBOT.direct(lengths).listed()
+    modes = ROBOT.forward(lengths).listed()
     ax = parallel.draw_assembly_modes(BASE, PLATFORM, modes)
     ax.figure.canvas.draw()
     assert [text.split(":")[0] for text in texts(ax)] == (
@@ -125,7 +125,7 @@ SHOWN = {
         ({"x": 0.5, "y": 0.6, "phi": 0.3},),
     ),
     "leg_lengths": (pictures.show_leg_lengths, lambda *pose: ROBOT.inverse(pose), ((0.5, 0.6, 0.3),)),
-    "modes": (pictures.show_modes, ROBOT.direct(SIX).listed(), (SIX,)),
+    "modes": (pictures.show_modes, ROBOT.forward(SIX).listed(), (SIX,)),
     "jacobian": (pictures.show_singular_poses, jacobian, (0.0,)),
     "singular": (pictures.show_singular, 0.5, (0.7,)),
     "postures": (pictures.show_3rrr_postures, [[0.1] * 6] * 2, ((0.4, 0.4), (0.5, 0.45, 0.2))),
@@ -165,7 +165,7 @@ def test_circles_have_the_radii_that_the_function_returns():
 
 
 def test_a_wrong_mode_is_named_by_its_legs():
-    right = ROBOT.direct(SIX).listed()
+    right = ROBOT.forward(SIX).listed()
     assert all("legs fit" in text for text in texts(shown("modes", right)))
     wrong = texts(shown("modes", [right[0], right[1] + [0.1, 0, 0]]))
     assert "legs fit" in wrong[0] and "a leg is off by" in wrong[1]

@@ -7,6 +7,7 @@ nothing of their solutions.
 import numpy as np
 import pytest
 
+from autograder.reference import Status
 from autograder.reference import equations as eq
 from dhkit.geometry import wrap
 
@@ -129,7 +130,7 @@ def test_round_angles_are_recovered(name):
     assert np.isfinite(values).all() and (roots.count != 0).all()
     error = np.abs(residual(values, c[:, None, :])).max(-1)
     assert error[roots.exists].max() < 1e-6
-    finite = roots.status != eq.INFINITE
+    finite = roots.status != Status.INFINITE
     gap = np.where(roots.exists, np.abs(wrap(values - angles[:, None])).max(-1), np.inf)
     assert gap.min(-1)[finite].max() < 3e-6
     assert (roots.free[~finite] != "").all() and (roots.free[finite] == "").all()
@@ -165,13 +166,13 @@ def test_type1():
 @pytest.mark.parametrize(
     "coefficients, count, status",
     [
-        ((1, 0, 0.5), 2, eq.SOLVED),
-        ((3, 4, 5), 1, eq.DOUBLE),
-        ((3, 4, -5), 1, eq.DOUBLE),
-        ((3, 4, 5.001), 0, eq.NONE),
-        ((3, 4, 4.999), 2, eq.SOLVED),
-        ((0, 0, 0), -1, eq.INFINITE),
-        ((0, 0, 1), 0, eq.NONE),
+        ((1, 0, 0.5), 2, Status.SOLVED),
+        ((3, 4, 5), 1, Status.BOUNDARY),
+        ((3, 4, -5), 1, Status.BOUNDARY),
+        ((3, 4, 5.001), 0, Status.UNREACHABLE),
+        ((3, 4, 4.999), 2, Status.SOLVED),
+        ((0, 0, 0), -1, Status.INFINITE),
+        ((0, 0, 1), 0, Status.UNREACHABLE),
     ],
 )
 def test_type2_counts(coefficients, count, status):
@@ -260,7 +261,7 @@ def test_the_s600_vector():
 
 def test_millimetres_serve_as_well_as_metres():
     roots = eq.type8(325.0, 275.0, 600.0 * np.cos(0.3), 600.0 * np.sin(0.3))
-    assert roots.status == eq.DOUBLE
+    assert roots.status == Status.BOUNDARY
 
 
 def test_batches_broadcast_and_bad_input_is_refused():

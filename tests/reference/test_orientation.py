@@ -88,7 +88,7 @@ def test_round_angles_and_gimbal_lock(axes, intrinsic):
     gap = np.abs(wrap(found.angles - angles[:, None])).max(axis=-1).min(axis=-1)
     assert (gap[~degenerate] < 1e-9).all()
 
-    is_sum = found.status[degenerate] == ori.ONLY_SUM
+    is_sum = found.sign[degenerate] > 0
     a, c = angles[degenerate, 0], angles[degenerate, 2]
     true = np.where(is_sum, a + c, a - c)
     assert np.abs(wrap(found.combination[degenerate] - true)).max() < 1e-12
@@ -142,8 +142,6 @@ def test_shapes_follow_the_batch():
     R = random_rotations(6, 24).reshape(2, 3, 4, 3, 3)
     found = ori.euler_angles(R, "zyz", intrinsic=True)
     assert found.angles.shape == (2, 3, 4, 2, 3) and found.status.shape == (2, 3, 4)
-    assert ori.quaternion(R).shape == (2, 3, 4, 4)
-    assert ori.axis_angle(R).axis.shape == (2, 3, 4, 3)
     assert ori.euler_angles(np.empty((0, 3, 3)), "zyz", intrinsic=True).angles.shape == (0, 2, 3)
 
 
@@ -153,7 +151,7 @@ def test_a_singular_pose_names_its_free_direction():
     assert said == "phi - psi = -0.3 rad, phi + psi free"
     said = ori.rpy(ori.rpy_matrix(0.2, -np.pi / 2, 0.5)).describe(("phi", "theta", "psi"))
     assert said == "phi + psi = 0.7 rad, phi - psi free"
-    assert ori.rpy(np.eye(3)).describe() == ori.REGULAR
+    assert ori.rpy(np.eye(3)).describe() == "two solutions"
     with pytest.raises(ValueError, match="no free angle"):
         ori.rpy(np.eye(3)).family(0.1)
     with pytest.raises(ValueError, match="one rotation at a time"):
@@ -186,65 +184,12 @@ def test_wrong_matrices_are_refused():
         (np.full((3, 3), np.nan), "NaN"),
         (np.eye(4), "shape"),
     ]:
-        for convert in (ori.quaternion, ori.axis_angle, ori.rpy):
-            with pytest.raises(ValueError, match=message):
-                convert(bad)
+        with pytest.raises(ValueError, match=message):
+            ori.rpy(bad)
     with pytest.raises(ValueError, match="unknown Euler set"):
         ori.euler_angles(np.eye(3), "zzx", intrinsic=True)
     with pytest.raises(ValueError, match="'x', 'y' or 'z'"):
         rotation("u", 0.1)
-
-
-# -- quaternions, axis and angle -------------------------------------------------
-
-
-def hard_rotations():
-    rng = np.random.default_rng(7)
-    axes = rng.normal(size=(300, 3))
-    axes[:6] = np.vstack([np.eye(3), -np.eye(3)])
-    axes /= np.linalg.norm(axes, axis=1, keepdims=True)
-    tiny = [0, 1e-12, 1e-8, 1e-4, 1, 3, np.pi - 1e-4, np.pi - 1e-8, np.pi]
-    return np.concatenate([Rotation.from_rotvec(t * axes).as_matrix() for t in tiny])
-
-
-def test_quaternion_agrees_with_scipy():
-    R = np.concatenate([random_rotations(8, 2000), hard_rotations()])
-    ours = ori.quaternion(R)
-    theirs = Rotation.from_matrix(R).as_quat()[:, [3, 0, 1, 2]]
-    same = np.minimum(np.abs(ours - theirs).max(-1), np.abs(ours + theirs).max(-1))
-    assert same.max() < 1e-12
-    assert (ours[:, 0] > -1e-12).all()
-    for q in (ours, -ours, 3 * ours):
-        assert np.abs(ori.quaternion_matrix(q) - R).max() < 1e-14 * 10
-    with pytest.raises(ValueError, match="not all zero"):
-        ori.quaternion_matrix([0, 0, 0, 0])
-
-
-def test_half_turns_about_the_axes_have_a_fixed_sign():
-    for axis in "xyz":
-        q = ori.quaternion(rotation(axis, np.pi))
-        assert np.allclose(q, np.eye(4)["wxyz".index(axis)], atol=1e-15)
-        assert np.allclose(ori.quaternion(rotation(axis, -np.pi)), q, atol=1e-15)
-
-
-def test_axis_angle_both_solutions():
-    R = np.concatenate([random_rotations(9, 2000), hard_rotations()])
-    found = ori.axis_angle(R)
-    axes, angles = found.both()
-    rebuilt = Rotation.from_rotvec(axes.reshape(-1, 3) * angles.reshape(-1, 1)).as_matrix()
-    assert np.abs(rebuilt.reshape(axes.shape[:2] + (3, 3)) - R[:, None]).max() < 1e-9
-    assert np.abs(ori.axis_angle_matrix(found.axis, found.angle) - R).max() < 1e-9
-    assert np.abs(np.linalg.norm(found.axis, axis=-1) - 1).max() < 1e-12
-    theirs = np.linalg.norm(Rotation.from_matrix(R).as_rotvec(), axis=-1)
-    assert np.abs(found.angle - theirs).max() < 1e-9
-
-
-def test_axis_angle_status():
-    assert ori.axis_angle(np.eye(3)).status == ori.AXIS_FREE
-    assert ori.axis_angle(rotation("y", np.pi)).status == ori.HALF_TURN
-    assert ori.axis_angle(rotation("y", 2.0)).status == ori.AXIS_DEFINED
-    with pytest.raises(ValueError, match="not all zero"):
-        ori.axis_angle_matrix([0, 0, 0], 1.0)
 
 
 def test_small_angles_are_not_lost():
@@ -252,4 +197,3 @@ def test_small_angles_are_not_lost():
     angle = np.array([1e-9, 3e-9, 1e-7])
     R = rotation("x", angle)
     assert np.allclose(rotation_angle_between(R, np.eye(3)), angle, rtol=1e-7)
-    assert np.allclose(ori.axis_angle(R, tolerance=1e-12).angle, angle, rtol=1e-7)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from autograder.reference.equations import DOUBLE, INFINITE, NONE, SOLVED
+from autograder.reference import Status
 from autograder.reference.parallel import ThreeRPR, ThreeRRR
 from dhkit.geometry import wrap
 
@@ -109,12 +109,12 @@ def test_jacobian_is_singular_where_modes_merge():
 def test_direct_is_sound_and_recovers_the_pose(seed):
     robot, rng = random_robot(seed)
     poses = random_poses(rng, 400)
-    found = robot.direct(robot.inverse(poses))
-    assert np.isfinite(found.values).all() and (found.status != NONE).all()
+    found = robot.forward(robot.inverse(poses))
+    assert np.isfinite(found.values).all() and (found.status != Status.UNREACHABLE).all()
     again = np.abs(robot.inverse(found.values) - robot.inverse(poses)[:, None]).max(-1)
     assert again[found.exists].max() < 1e-11
     assert pose_gap(found, poses).min(-1).max() < 1e-7
-    regular = found.status == SOLVED
+    regular = found.status == Status.SOLVED
     assert (found.count[regular] % 2 == 0).all(), "modes come in pairs away from singular poses"
 
 
@@ -123,7 +123,7 @@ def test_round_poses_with_phi_pi_among_them():
     rounded = np.radians([0, 30, -30, 45, -45, 90, -90, 180])
     grid = np.stack(np.meshgrid([-0.5, 0, 0.3, 1], [-0.5, 0, 0.3, 1], rounded), -1).reshape(-1, 3)
     for robot in (ThreeRPR(), random_robot(3)[0]):
-        found = robot.direct(robot.inverse(grid))
+        found = robot.forward(robot.inverse(grid))
         assert pose_gap(found, grid).min(-1).max() < 1e-6
         half_turn = np.abs(grid[:, 2] - np.pi) < 1e-12
         leading = robot.polynomial(robot.inverse(grid))
@@ -136,8 +136,8 @@ def test_direct_is_complete(seed):
     robot, rng = random_robot(seed)
     for pose in random_poses(rng, 6):
         lengths = leg_lengths(robot, pose)
-        found = robot.direct(lengths)
-        if found.status == DOUBLE or not ends_are_clean(robot, lengths):
+        found = robot.forward(lengths)
+        if found.status == Status.BOUNDARY or not ends_are_clean(robot, lengths):
             continue
         oracle = modes_by_circles(robot, lengths)
         assert len(oracle) == found.count
@@ -152,7 +152,7 @@ def test_the_completeness_test_sees_enough_cases():
         robot, rng = random_robot(seed)
         poses = random_poses(rng, 6)
         counts += [
-            int(robot.direct(robot.inverse(p)).count) for p in poses if ends_are_clean(robot, leg_lengths(robot, p))
+            int(robot.forward(robot.inverse(p)).count) for p in poses if ends_are_clean(robot, leg_lengths(robot, p))
         ]
     assert len(counts) > 40 and {2, 4, 6} <= set(counts) <= {2, 4, 6}
 
@@ -163,32 +163,32 @@ def test_polynomial_vanishes_at_the_modes_only():
     lengths = robot.inverse(pose)
     p = robot.polynomial(lengths)
     assert p.shape == (7,)
-    relative = np.abs(np.polyval(p, np.tan(robot.direct(lengths).listed()[:, 2] / 2)))
+    relative = np.abs(np.polyval(p, np.tan(robot.forward(lengths).listed()[:, 2] / 2)))
     assert relative.max() < 1e-10 * np.abs(p).max()
     assert abs(np.polyval(p, np.tan((pose[2] + 0.1) / 2))) > 1e-6 * np.abs(p).max()
 
 
 def test_legs_too_short_close_nowhere():
-    found = ThreeRPR().direct([[0.01, 0.01, 0.01], [0.0, 0.0, 0.0]])
-    assert (found.count == 0).all() and (found.status == NONE).all()
+    found = ThreeRPR().forward([[0.01, 0.01, 0.01], [0.0, 0.0, 0.0]])
+    assert (found.count == 0).all() and (found.status == Status.UNREACHABLE).all()
 
 
 def test_congruent_platform_moves_along_a_circle():
-    found = CONGRUENT.direct([0.5, 0.5, 0.5])
-    assert found.status == INFINITE and found.count == -1 and found.free == "P along a circle"
+    found = CONGRUENT.forward([0.5, 0.5, 0.5])
+    assert found.status == Status.INFINITE and found.count == -1 and found.free == "P along a circle"
     x, y, phi = found.listed()[0]
     assert np.isclose(np.hypot(x, y), 0.5) and phi == 0
     turned = np.linspace(0, 6, 20)
     circle = np.column_stack([0.5 * np.cos(turned), 0.5 * np.sin(turned), 0 * turned])
     assert np.allclose(CONGRUENT.inverse(circle), 0.5), "the motion does keep the lengths"
-    assert CONGRUENT.direct([0.5, 0.6, 0.5]).count > 0
+    assert CONGRUENT.forward([0.5, 0.6, 0.5]).count > 0
 
 
 def test_platform_pinned_at_one_point_turns_freely():
     """Anchors and platform points such that q1 = 0 lets the platform turn about A1."""
     robot = ThreeRPR(base=[(0, 0), (0, 0), (1, 0)], platform=[(0, 0), (1, 0), (0, 0)])
-    found = robot.direct([0.0, 1.0, 1.0])
-    assert found.status == INFINITE and found.free == "phi"
+    found = robot.forward([0.0, 1.0, 1.0])
+    assert found.status == Status.INFINITE and found.free == "phi"
     assert np.allclose(robot.inverse(found.listed()[0]), [0, 1, 1])
     phi = np.linspace(-3, 3, 7)
     assert np.allclose(robot.inverse(np.column_stack([0 * phi, 0 * phi, phi])), [0, 1, 1])
@@ -198,7 +198,7 @@ def test_two_modes_with_the_same_phi():
     """Both linear equations describe one line: the leg-1 circle is met twice."""
     robot = ThreeRPR(base=[(0, 0), (1, 0), (2, 0)], platform=[(0, 0), (0.5, 0), (1.0, 0)])
     pose = np.array([0.4, 0.7, 0.3])
-    found = robot.direct(robot.inverse(pose))
+    found = robot.forward(robot.inverse(pose))
     assert pose_gap(found, pose).min() < 1e-9
     phis = np.sort(found.listed()[:, 2])
     assert found.count == 4
@@ -210,29 +210,29 @@ def test_a_singular_pose_is_called_merging():
     platform = np.array([(-1, 0), (0.2, 0.1), (1, 0)])
     robot = ThreeRPR(base=platform + [(0, 0), (0, 0.3), (0, -0.2)], platform=platform)
     pose = np.array([0.0, 1.0, 0.0])
-    found = robot.direct(robot.inverse(pose))
-    assert found.status == DOUBLE and pose_gap(found, pose).min() < 1e-6
-    beside = robot.direct(robot.inverse(pose + [0.05, 0, 0.02]))
-    assert beside.status == SOLVED and beside.count % 2 == 0
+    found = robot.forward(robot.inverse(pose))
+    assert found.status == Status.BOUNDARY and pose_gap(found, pose).min() < 1e-6
+    beside = robot.forward(robot.inverse(pose + [0.05, 0, 0.02]))
+    assert beside.status == Status.SOLVED and beside.count % 2 == 0
 
 
 def test_scaling_the_robot_scales_the_modes():
     robot, rng = random_robot(7)
     pose = random_poses(rng, 30)
     large = ThreeRPR(1000 * robot.base, 1000 * robot.platform)
-    small, big = robot.direct(robot.inverse(pose)), large.direct(1000 * robot.inverse(pose))
+    small, big = robot.forward(robot.inverse(pose)), large.forward(1000 * robot.inverse(pose))
     assert (small.count == big.count).all()
     assert np.abs(big.values[..., :2] - 1000 * small.values[..., :2]).max() < 1e-4
 
 
 def test_batch_shapes_and_bad_input():
     robot = ThreeRPR()
-    assert robot.direct(np.ones((2, 4, 3))).values.shape == (2, 4, 6, 3)
-    assert robot.direct(np.empty((0, 3))).values.shape == (0, 6, 3)
-    assert robot.direct([1.0, 1.0, 1.0]).exists.shape == (6,)
+    assert robot.forward(np.ones((2, 4, 3))).values.shape == (2, 4, 6, 3)
+    assert robot.forward(np.empty((0, 3))).values.shape == (0, 6, 3)
+    assert robot.forward([1.0, 1.0, 1.0]).exists.shape == (6,)
     for bad, message in [([1, 1], "three leg lengths"), ([1, 1, -1], "not negative"), ([1, 1, np.nan], "finite")]:
         with pytest.raises(ValueError, match=message):
-            robot.direct(bad)
+            robot.forward(bad)
     with pytest.raises(ValueError, match="a pose is"):
         robot.inverse([1, 2])
     with pytest.raises(ValueError, match="two legs join"):
@@ -282,18 +282,18 @@ def test_3rrr_order_limits_and_refusals():
     assert (np.sign(found.values[:, 1::2]) == signs).all()
 
     out_of_reach = robot.inverse([0.45, 1.5, 0.1])
-    assert out_of_reach.status == NONE and out_of_reach.count == 0
+    assert out_of_reach.status == Status.UNREACHABLE and out_of_reach.count == 0
     one_stretched = ThreeRRR(base=[(0, 0), (1, 0), (1, 0.5)], platform=[(0, 0), (0.5, 0.1), (0.5, 0.6)]).inverse(
         [0.95, 0.0, 0.0]
     )
-    assert one_stretched.status == DOUBLE and one_stretched.count == 4
+    assert one_stretched.status == Status.BOUNDARY and one_stretched.count == 4
     folded = ThreeRRR(
         proximal=[0.5] * 3,
         distal=[0.5, 0.4, 0.4],
         base=[(0, 0), (1, 0), (0.4, 0.9)],
         platform=[(0, 0), (0.4, 0.1), (0.1, 0.3)],
     ).inverse([0.0, 0.0, 0.0])
-    assert folded.status == INFINITE and folded.count == -1
+    assert folded.status == Status.INFINITE and folded.count == -1
     with pytest.raises(ValueError, match="three positive lengths"):
         ThreeRRR(proximal=[0.5, 0.5, 0.0])
 
@@ -303,4 +303,4 @@ def test_the_slides_statement_is_not_general():
     pose = [0.45, 0.3, 0.1]
     assert ThreeRPR().inverse(pose).shape == (3,)
     assert ThreeRRR().inverse(pose).count == 8
-    assert ThreeRPR().direct(ThreeRPR().inverse(pose)).count > 1
+    assert ThreeRPR().forward(ThreeRPR().inverse(pose)).count > 1

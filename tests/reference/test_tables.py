@@ -35,8 +35,8 @@ def test_inverses():
     assert sp.simplify(forth * back) == sp.eye(4)
     assert sp.simplify(rigid_inverse(forth) - back) == sp.zeros(4)
     table = robots.SCARA.table
-    assert sp.simplify(table.inverse() * table.symbolic_forward()) == sp.eye(4)
-    assert [sp.simplify(f * b) for f, b in zip(table.transforms(), table.inverses())] == [sp.eye(4)] * 4
+    assert sp.simplify(table.inverse_transform() * table.symbolic_forward()) == sp.eye(4)
+    assert [sp.simplify(f * b) for f, b in zip(table.transforms(), table.inverse_transforms())] == [sp.eye(4)] * 4
 
 
 @pytest.mark.parametrize(

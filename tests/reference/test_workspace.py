@@ -111,11 +111,6 @@ def test_sample_stays_within_the_limits_and_covers_them():
     assert (again == points).all()
 
 
-def test_radii_of_a_cloud():
-    points = ws.rr_grid(1.0, 0.6, np.linspace(-3, 3, 50), np.linspace(-np.pi, np.pi, 1001))
-    assert np.allclose(ws.radii(points), (0.4, 1.6), atol=1e-4)
-
-
 def test_cross_section_of_a_spatial_arm():
     limits = [FULL, (0, np.pi / 2), (-np.pi / 2, np.pi / 2)]
     section = ws.cross_section(elbow_arm, limits, 20_000, np.random.default_rng(2))
@@ -126,7 +121,8 @@ def test_cross_section_of_a_spatial_arm():
     signed = np.stack([section[:, 0], section[:, 1]], -1)
     mirrored = signed * [-1, 1]
     assert (inside.contains(signed) | inside.contains(mirrored)).all()
-    assert abs(ws.radii(section)[1] - ws.radii(turned)[1]) < 1e-2
+    reach = [np.linalg.norm(points, axis=-1).max() for points in (section, turned)]
+    assert abs(reach[0] - reach[1]) < 1e-2
 
     def leaning(q):
         return elbow_arm(q)[..., [1, 2, 0]]

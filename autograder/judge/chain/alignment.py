@@ -16,10 +16,17 @@ from .shifts import SegmentDemands, link_shifts
 
 @dataclass(frozen=True)
 class Alignment:
-    """Rigid motions of the links (0 the base, n the hand) and senses of the axes.
+    """Rigid motions that carry the student's links (0 the base, n the hand) onto the reference's.
 
-    ``rotations`` (K, n + 1, 3, 3), ``shifts`` (K, n + 1, 3), ``senses`` (n,) with +1 where Z_i goes to Z_i, and the
-    price of the freedoms used.
+    Attributes
+    ----------
+    rotations : (K, n + 1, 3, 3) array
+    shifts : (K, n + 1, 3) array
+        Metres; a point p of link k goes to ``rotations[k] @ p + shifts[k]``.
+    senses : (n,) array
+        +1 where Z_i goes to Z_i, -1 where it is reversed.
+    cost : float
+        Price of the freedoms used.
     """
 
     rotations: np.ndarray
@@ -45,7 +52,14 @@ def align(
 ) -> Alignment | DeadEnd:
     """The cheapest way to lay `student` on `reference`, joint types being the same.
 
-    senses: (n,) with +1 or -1 where the sense of an axis is prescribed, 0 where it is not.
+    Parameters
+    ----------
+    student, reference : JudgedChain
+    senses : (n,) array
+        +1 or -1 where the sense of an axis is prescribed, 0 where it is not.
+    price : Price
+    tolerance : float
+        Radians, and lengths relative to the larger of 1 m and the robot.
     """
     problem = Problem(student, reference, senses, price, tolerance)
     stretches = [_Stretch.of(problem, segment) for segment in segments(reference.prismatic)]

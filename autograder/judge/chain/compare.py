@@ -65,11 +65,19 @@ def same_chain(
 ) -> ChainMatch:
     """Compare two chains given at the same sample points.
 
-    pinned: freedoms that a right answer may not use, each for all joints (``"zero of joint"``, ``"sense of Z"``,
-    ``Freedom.BASE``) or for one, written as in `ChainMatch.freedoms` (``"zero of joint 3"``, ``"sense of X2"``).
-    tolerance: largest accepted difference, in radians, and in lengths relative to the larger of 1 m and the robot.
+    Parameters
+    ----------
+    student, reference : JudgedChain
+    pinned : collection of str
+        Freedoms that a right answer may not use, each for all joints (``"zero of joint"``, ``"sense of Z"``,
+        ``Freedom.BASE``) or for one, written as in `ChainMatch.freedoms` (``"zero of joint 3"``, ``"sense of X2"``).
+    tolerance : float
+        Largest accepted difference, in radians, and in lengths relative to the larger of 1 m and the robot.
 
-    Raises ValueError for a name in `pinned` that is no freedom, or different numbers of sample points.
+    Raises
+    ------
+    ValueError
+        For a name in `pinned` that is no freedom, or different numbers of sample points.
     """
     pins = Pins(pinned)
     student, reference = _at_same_points(student, reference)

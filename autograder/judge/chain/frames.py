@@ -69,8 +69,18 @@ class JudgedChain:
     ) -> JudgedChain:
         """From decoded entries, row after row of (sigma, a, alpha, d, theta).
 
-        `joints` names the joint variables in order; `samples` gives the other symbols their values, one (K,) array
-        each (values it has for joints are not used). Raises `NotAChain`.
+        Parameters
+        ----------
+        entries : sequence
+            Metres and radians.
+        joints : sequence of str
+            Names of the joint variables, in order.
+        samples : mapping
+            Values of the other symbols, one (K,) array each; values for joints are not used.
+
+        Raises
+        ------
+        NotAChain
         """
         count, rest = divmod(len(entries), _WIDTH)
         if rest or not 0 < count <= MAX_ROWS:

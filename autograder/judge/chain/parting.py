@@ -121,8 +121,8 @@ def _distance(chain: JudgedChain, before: int, joint: int) -> np.ndarray:
 
 def _foot(chain: JudgedChain, joint: int, other: int) -> np.ndarray | None:
     """Foot, on the axis of `joint`, of its common normal with the axis of `other`, (K, 3); None if they are parallel."""
-    lines = ((chain.origins[:, i], chain.axes[:, i]) for i in (joint, other))
-    normal = common_normal(*lines, _PARALLEL)
+    here, there = ((chain.origins[:, i], chain.axes[:, i]) for i in (joint, other))
+    normal = common_normal(here, there, _PARALLEL)
     return None if normal.parallel.any() else normal.feet[:, 0]
 
 

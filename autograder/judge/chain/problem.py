@@ -16,8 +16,14 @@ from .linear import transposed
 class Problem:
     """Lay the links of `student` on those of `reference`, joint types being the same. Joints count from 0.
 
-    prescribed: (n,) with +1 or -1 where the sense of an axis is prescribed, 0 where it is not.
-    tolerance: in radians, and in lengths relative to the larger of 1 m and the robot.
+    Attributes
+    ----------
+    student, reference : JudgedChain
+    prescribed : (n,) array
+        +1 or -1 where the sense of an axis is prescribed, 0 where it is not.
+    price : Price
+    tolerance : float
+        Radians, and lengths relative to the larger of 1 m and the robot.
     """
 
     student: JudgedChain

@@ -45,7 +45,7 @@ def elbow_arm(l1: float, l2: float) -> robots.Robot:
 
 def elbow_postures(mine) -> Rows:
     l1, l2, *target = (mine[name] for name in ELBOW)
-    return elbow_arm(l1, l2).solve(target).q.tolist()
+    return elbow_arm(l1, l2).inverse(target).q.tolist()
 
 
 def elbow_residual(q: np.ndarray, mine) -> np.ndarray:
@@ -91,12 +91,12 @@ def count(solutions) -> int:
 def counts() -> tuple[int, ...]:
     """The six cases of the question, in its order; -1 for infinitely many."""
     return (
-        count(robots.scara(a2=0.4, a3=0.3).solve((0.3, 0.4, -0.1, 0.5))),
-        count(robots.scara(a2=0.35, a3=0.35).solve((0.0, 0.0, -0.1, 0.5))),
-        count(robots.elbow_3r(0.5, 0.4).solve((0.54, 0.0, 0.72))),
-        count(robots.rx90().solve(general_pose(0.35, 0.2, 0.4))),
-        count(robots.epfl_arm().solve(general_pose(0.15, 0.0, 0.5))),
-        count(robots.kr210(grip=0.0).solve(general_pose(2.6, 0.0, 0.75))),
+        count(robots.scara(a2=0.4, a3=0.3).inverse((0.3, 0.4, -0.1, 0.5))),
+        count(robots.scara(a2=0.35, a3=0.35).inverse((0.0, 0.0, -0.1, 0.5))),
+        count(robots.elbow_3r(0.5, 0.4).inverse((0.54, 0.0, 0.72))),
+        count(robots.rx90().inverse(general_pose(0.35, 0.2, 0.4))),
+        count(robots.epfl_arm().inverse(general_pose(0.15, 0.0, 0.5))),
+        count(robots.kr210(grip=0.0).inverse(general_pose(2.6, 0.0, 0.75))),
     )
 
 
@@ -138,7 +138,7 @@ def kr210_target(mine) -> list[float]:
 
 def arm_postures(robot: robots.Robot, centre) -> Rows:
     """All (q1, q2, q3) that bring the wrist centre to a point."""
-    batch = robot.solve_batch(general_pose(*centre)[None])
+    batch = robot.inverse_batch(general_pose(*centre)[None])
     return batch.q[0, ::2, :3][batch.valid[0, ::2]].tolist()
 
 
@@ -178,7 +178,7 @@ def rx90(a3: float, d3: float) -> robots.Robot:
 
 @lru_cache(maxsize=512)
 def _rx90_postures(pose: bytes, a3: float, d3: float) -> Rows:
-    return rx90(a3, d3).solve(np.frombuffer(pose).reshape(4, 4)).q.tolist()
+    return rx90(a3, d3).inverse(np.frombuffer(pose).reshape(4, 4)).q.tolist()
 
 
 def rx90_postures(U, a3: float, d3: float) -> Rows:

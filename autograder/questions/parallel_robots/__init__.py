@@ -235,7 +235,7 @@ QUESTIONS = (
     ),
     Question(
         "parallel_robots.modes",
-        reference=lambda mine: ROBOT.direct(lengths_of(mine)).listed().tolist(),
+        reference=lambda mine: ROBOT.forward(lengths_of(mine)).listed().tolist(),
         mistakes=(
             mistake(
                 "one_mode_only",

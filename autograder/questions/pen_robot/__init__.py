@@ -63,7 +63,7 @@ def point_of_the_surface(rng: np.random.Generator) -> dict[str, float]:
 def circles(mine, side="h2 + L2") -> list[float]:
     """Radii on the sheet, the large one first; `side` is the distance of the pen's plane from axis 1."""
     distance = {"h2 + L2": mine.h2 + mine.L2, "h2": mine.h2, "none": 0.0}[side]
-    return list(_robot(mine.h1, mine.L1, distance, 0.0, mine.p1).inverse.circles(mine.h1 - mine.drop))
+    return list(_robot(mine.h1, mine.L1, distance, 0.0, mine.p1).inverse_model.circles(mine.h1 - mine.drop))
 
 
 @lru_cache(maxsize=256)
@@ -76,7 +76,7 @@ def _robot(h1, L1, h2, L2, p1):
 
 def reached(px, py, pz, h1, L1, H, p1):
     """All (theta1, phi) of a point, [] off the surface."""
-    return [list(pair) for pair in _robot(h1, L1, H, 0.0, p1).inverse.effective((px, py, pz), tol=1e-7)]
+    return [list(pair) for pair in _robot(h1, L1, H, 0.0, p1).inverse_model.effective((px, py, pz), tol=1e-7)]
 
 
 def inverse(*, signs=(1, -1), side=1, checked=True, angle=np.arctan2):
@@ -171,7 +171,7 @@ def curve(rng: np.random.Generator, mine) -> list[list[float]]:
 
 def follow(*point, mine):
     """Right joint values for a point of the curve: phi shared by both joints in equal parts, and others within the stops."""
-    turn, angle = own_robot(mine).inverse.effective(point, tol=1e-7)[0]
+    turn, angle = own_robot(mine).inverse_model.effective(point, tol=1e-7)[0]
     return Family([[turn, share * angle, (1 - share) * angle] for share in (0.5, 0.4, 0.6)])
 
 

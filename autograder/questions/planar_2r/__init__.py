@@ -70,7 +70,7 @@ def reachable_point(rng: np.random.Generator) -> dict[str, float]:
 @lru_cache(maxsize=1024)
 def solutions(px, py, l1, l2):
     """All (t1, t2) that bring the hand to (px, py)."""
-    return robots.planar_2r(l1, l2).solve((px, py)).q.tolist()
+    return robots.planar_2r(l1, l2).inverse((px, py)).q.tolist()
 
 
 def own_target(mine):

@@ -73,7 +73,7 @@ def own_pose(mine):
 def postures(mine):
     """All (t1, t2, d2, t4) that reach the student's pose."""
     lengths, pose = own_pose(mine)
-    return robots.scara(*lengths).solve(pose).q.tolist()
+    return robots.scara(*lengths).inverse(pose).q.tolist()
 
 
 def with_first_t1_and_heading(solutions):

@@ -90,7 +90,7 @@ def robot(length2, length3, constant):
 
 def mgi(x, y, z, omega, length2, length3, constant):
     """All (t1, t2, r3, t4) for a pose, a `Family` at the centre of an arm with equal links."""
-    found = robot(length2, length3, constant).solve((x, y, z, omega))
+    found = robot(length2, length3, constant).inverse((x, y, z, omega))
     return Family(at_centre(found.q[0])) if found.status == "infinite" else found.q.tolist()
 
 

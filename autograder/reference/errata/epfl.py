@@ -189,7 +189,7 @@ def _is_the_matrix_page(axes):
 def _counts_the_postures(claim):
     """(hand poses, arm postures, postures with the wrist) of the six-joint arm, one target."""
     arm = robots.EPFL_ARM
-    q = arm.solve(arm.forward(np.radians([20, 30, 50, -25, 40, 65]))).q
+    q = arm.inverse(arm.forward(np.radians([20, 30, 50, -25, 40, 65]))).q
     poses = {tuple(pose) for pose in np.round(arm.forward(q), 9).reshape(len(q), 16) + 0.0}
     arms = {tuple(row) for row in np.round(q[:, :3], 9)}
     return claim == (len(poses), len(arms), len(q))
@@ -199,7 +199,7 @@ def _is_the_largest_count(bound):
     """Largest number of postures among many random poses of a six-joint arm with a wrist."""
     arm = robots.EPFL_ARM
     q = np.random.default_rng(2).uniform(-np.pi, np.pi, (500, 6))
-    return bool(arm.solve_batch(arm.forward(q)).count.max() == bound)
+    return bool(arm.inverse_batch(arm.forward(q)).count.max() == bound)
 
 
 def _counts_the_inverses(claim):
