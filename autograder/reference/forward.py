@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from dhkit.geometry import modified_dh_of_cosines
 
-from .elementary import rot_x, trans_x
+from .transforms import rot_x, trans_x
 
 if TYPE_CHECKING:
     from .tables import DHRow
