@@ -34,7 +34,9 @@ def examine(root: Path) -> Iterator[Finding]:
     yield from _packages(root)
     yield _alembic()
     yield _kernel()
-    yield _sandbox()
+    yield (sandbox := _sandbox())
+    if sandbox.ok:
+        yield _trial(root)
     yield _gradebook(root)
 
 
@@ -90,6 +92,16 @@ def _sandbox() -> Finding:
     reason = available()
     cure = "or grade with --sandbox none, if you trust every submission"
     return Finding("sandbox", reason is None, reason or "bubblewrap works", cure)
+
+
+def _trial(root: Path) -> Finding:
+    from autograder.sandbox import Limits
+
+    from .submission.trial import find_fault
+
+    released = sorted(root.glob("exercises/*/*.ipynb"))
+    fault = find_fault(released, Limits(), "bwrap", (root,))
+    return Finding("trial notebook", fault is None, fault or "runs in the sandbox and hands in an answer", SETUP)
 
 
 def _gradebook(root: Path) -> Finding:

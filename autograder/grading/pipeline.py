@@ -27,13 +27,14 @@ from .plugins.converters import (
     NotReady,
     SubmissionAutograde,
     notebook_names,
+    refuse_unless_fit,
     refuse_unless_ready,
     released_path,
     submission,
 )
 from .plugins.preprocessors import SandboxExecute
 from .results import Result, graded_notebooks, read_result
-from .submission.execution import Execution
+from .submission.execution import Execution, MachineFault
 from .submission.reading import fingerprint
 from .submission.restore import restore
 
@@ -63,26 +64,33 @@ def grade(
     converter = SubmissionAutograde(coursedir=course.app.coursedir, parent=course.app)
     try:
         refuse_unless_ready(converter)
+        names = notebook_names(converter)
+        status = {}
+        for student in students:
+            status[student] = "graded" if force or _is_new(course, student, exercise, names) else "unchanged"
+        if "graded" in status.values():
+            refuse_unless_fit(converter)
     except NotReady as reason:
         raise CourseError(str(reason)) from None
-    names = notebook_names(converter)
     runner = SandboxExecute(parent=converter)
-    status = {}
     for student in students:
-        status[student] = "graded" if force or _is_new(course, student, exercise, names) else "unchanged"
         if status[student] == "unchanged":
             progress(student)
 
     def run(student: str) -> dict[tuple[str, str], Execution]:
-        return {(student, name): _run(course, runner, student, exercise, name) for name in names}
+        return {(student, name): _run(course, runner.run, student, exercise, name) for name in names}
+
+    def run_alone(student: str) -> dict[tuple[str, str], Execution]:
+        return {(student, name): _run(course, runner.run_alone, student, exercise, name) for name in names}
 
     failures: dict[str, str] = {}
-    with closing(_run_ahead(run, [name for name in students if status[name] == "graded"], jobs)) as runs:
+    with closing(_run_ahead(run, run_alone, [name for name in students if status[name] == "graded"], jobs)) as runs:
         for student, future in runs:
             try:
                 _store(course, student, future.result())
             except Exception as error:
-                failures[student] = str(error) if isinstance(error, CourseError) else f"could not be run: {error!r}"
+                known = isinstance(error, CourseError | MachineFault)
+                failures[student] = str(error) if known else f"could not be run: {error!r}"
             progress(student)
     unusable = [_unusable(name, exercise) for name in course.unusable_folders(exercise)]
     with Gradebook(course.app.coursedir.db_url, course.app.coursedir.course_id) as gradebook:
@@ -109,11 +117,11 @@ def _is_new(course: Course, student: str, exercise: str, names: list[str]) -> bo
     return now != {notebook_record(nb).submission for nb in notebooks}
 
 
-def _run(course: Course, runner: SandboxExecute, student: str, exercise: str, name: str) -> Execution:
+def _run(course: Course, run: Callable[..., Execution], student: str, exercise: str, name: str) -> Execution:
     released = released_path(course.app.coursedir, exercise, name)
     folder = course.step("submitted", student, exercise)
     nb = restore(submission(folder / f"{name}.ipynb", released), nbformat.read(released, as_version=4))
-    return runner.run(nb, (folder, released.parent), student, course.root)
+    return run(nb, folder, released, student, course.root)
 
 
 def _store(course: Course, student: str, executions: dict[tuple[str, str], Execution]) -> None:
@@ -129,9 +137,20 @@ def _store(course: Course, student: str, executions: dict[tuple[str, str], Execu
         raise CourseError(f"the points are in the gradebook, but there is no feedback page: {reason}") from None
 
 
-def _run_ahead(run: Callable[[str], dict], students: list[str], jobs: int) -> Generator[tuple[str, Future]]:
-    """Yield each student with the finished run, in the order in which runs end; few results wait at any time."""
+def _in_doubt(run: Future) -> bool:
+    """Whether the machine, or a neighbour's notebook, may be to blame for what came of a run."""
+    return run.exception() is not None or any(execution.doubt for execution in run.result().values())
+
+
+def _run_ahead(
+    run: Callable[[str], dict], run_alone: Callable[[str], dict], students: list[str], jobs: int
+) -> Generator[tuple[str, Future]]:
+    """Yield each student with the finished run, in the order in which runs end; few results wait at any time.
+
+    Whose run ended in doubt comes last and runs once more, alone.
+    """
     waiting = iter(students)
+    again: list[str] = []
     running: dict[Future, str] = {}
     with ThreadPoolExecutor(jobs) as pool:
         try:
@@ -139,10 +158,18 @@ def _run_ahead(run: Callable[[str], dict], students: list[str], jobs: int) -> Ge
                 while len(running) < 2 * jobs and (student := next(waiting, None)) is not None:
                     running[pool.submit(run, student)] = student
                 if not running:
-                    return
+                    break
                 done, _ = wait(running, return_when=FIRST_COMPLETED)
                 for future in done:
-                    yield running.pop(future), future
+                    student = running.pop(future)
+                    if _in_doubt(future):
+                        again.append(student)
+                    else:
+                        yield student, future
+            for student in again:
+                future = pool.submit(run_alone, student)
+                wait([future])
+                yield student, future
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             cancel_runs()

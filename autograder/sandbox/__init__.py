@@ -11,15 +11,21 @@ if TYPE_CHECKING:
     from .bubblewrap import SandboxUnavailable, available
     from .client import CellRun, KernelStartError
     from .run import Run, cancel_runs, run_notebook
+from .workdir import NotPlain, TooLarge, plain_bytes, plain_files, read_folders
 
 __all__ = [
     "CellRun",
     "KernelStartError",
     "Limits",
+    "NotPlain",
     "Run",
     "SandboxUnavailable",
+    "TooLarge",
     "available",
     "cancel_runs",
+    "plain_bytes",
+    "plain_files",
+    "read_folders",
     "run_notebook",
 ]
 

@@ -236,11 +236,13 @@ def start(
     Raises
     ------
     SandboxUnavailable
-        If there is no bubblewrap, or no filter of system calls for this machine.
+        If there is no bubblewrap, no /proc, or no filter of system calls for this machine.
     """
     bwrap = shutil.which("bwrap")
     if bwrap is None:
         raise SandboxUnavailable(f"bubblewrap (bwrap) is not installed; {_INSTALL}")
+    if not os.path.exists("/proc/self/uid_map"):
+        raise SandboxUnavailable("/proc is not mounted here; as root mount it: mount -t proc proc /proc")
     uid = unused_uid() if os.geteuid() == 0 else None
     plan = {
         "uid": uid,
@@ -308,6 +310,8 @@ def available() -> str | None:
         output, _ = process.communicate(timeout=_PROBE_SECONDS)
     except SandboxUnavailable as error:
         return str(error)
+    except OSError as error:
+        return f"a trial sandbox could not be started: {error}"
     except subprocess.TimeoutExpired:
         process.kill()
         process.communicate()

@@ -22,7 +22,7 @@ import psutil
 from jupyter_client.connect import KernelConnectionInfo, port_names
 from jupyter_client.manager import KernelManager
 from jupyter_client.provisioning import LocalProvisioner
-from traitlets import Bool, Instance, Unicode
+from traitlets import Bool, Bytes, Dict, Instance, Unicode
 from traitlets import List as ListOf
 
 from . import bubblewrap
@@ -30,7 +30,6 @@ from .limits import Limits
 from .relay import Relay, listening_sockets
 from .scratch import PrivateFolder
 from .watch import FamilyWatch
-from .workdir import read_folder
 
 _NO_HISTORY = "--HistoryManager.hist_file=:memory:"
 _XCPU_STATUS = 128 + signal.SIGXCPU
@@ -61,7 +60,7 @@ class SandboxProvisioner(LocalProvisioner):
     """
 
     limits = Instance(Limits, args=())
-    workdir = Unicode("", help="folder whose files are copied into the kernel's private work folder")
+    files = Dict(Bytes(), help="contents of the kernel's private work folder, by name")
     hidden = ListOf(Unicode(), help="folders that the kernel must not see, wherever they are")
     sandboxed = Bool(True)
 
@@ -69,7 +68,6 @@ class SandboxProvisioner(LocalProvisioner):
     watch: FamilyWatch  # likewise
     memory_exceeded = False
     exit_status: int | None = None
-    left_out: tuple[str, ...] = ()
     _private: PrivateFolder | None = None
     _console: IO[bytes] | None = None
 
@@ -121,25 +119,23 @@ class SandboxProvisioner(LocalProvisioner):
         return self.connection_info
 
     def _start(self, descriptors: list[int], options: list[str], env: dict[str, str] | None) -> subprocess.Popen[bytes]:
-        contents, left_out = read_folder(Path(self.workdir), self.limits.disk // 2) if self.workdir else ({}, [])
-        self.left_out = tuple(left_out)
         connection = self._connection(descriptors)
         source = Path(__file__).with_name("kernel.py").read_text()
         # nbclient passes the first option as well.
         command = [sys.executable, "-c", source, *dict.fromkeys((_NO_HISTORY, *options))]
         if self.sandboxed:
-            files = {f"work/{name}": content for name, content in contents.items()}
+            files = {f"work/{name}": content for name, content in self.files.items()}
             files |= {**_font_list(), ".kernel.json": connection}
             return bubblewrap.start(
                 [*command, "-f", f"{bubblewrap.HOME}/.kernel.json"],
                 limits=self.limits,
                 files=files,
-                hidden=[*self.hidden, *filter(None, [self.workdir])],
+                hidden=self.hidden,
                 pass_fds=descriptors,
             )
         work = self.folder / "work"
         work.mkdir(exist_ok=True)
-        for name, content in contents.items():
+        for name, content in self.files.items():
             path = work / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(content)

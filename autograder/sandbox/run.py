@@ -5,9 +5,10 @@ from __future__ import annotations
 import asyncio
 import concurrent.futures
 import copy
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Literal
 
 import nbformat
@@ -20,7 +21,6 @@ from .limits import Limits
 
 _MAX_RESTARTS = 2
 _HARMLESS = ("ok", "error", "memory")
-_NAMES_SHOWN = 5
 
 _RUNNING: set[asyncio.Task[Run]] = set()
 
@@ -41,12 +41,15 @@ class Run:
         What went wrong with the notebook as a whole.
     starved : bool
         Whether the machine let it run so little that nothing can be said about it.
+    lived : float
+        For how many seconds the longest-lived of the kernels lived that ended for no reason that is known.
     """
 
     cells: dict[int, CellRun] = field(default_factory=dict)
     followups: dict[int, list[NotebookNode]] = field(default_factory=dict)
     message: str | None = None
     starved: bool = False
+    lived: float = 0.0
 
     @property
     def doubt(self) -> str | None:
@@ -66,14 +69,12 @@ class _Session:
     starts: int = 0
     used: int = 0
     spent: Spent = field(default_factory=Spent)
-    left_out: tuple[str, ...] = ()
     harmful: set[int] = field(default_factory=set)
 
     async def start(self) -> None:
         self.client = SandboxClient(self.nb, self.limits, self.options, self.used, self.spent)
         self.starts += 1
         await self.client.start()
-        self.left_out = self.client.provisioner.left_out
 
     def stop(self) -> None:
         if self.client is not None:
@@ -92,6 +93,8 @@ class _Session:
         cell = nbformat.v4.new_code_cell(source)
         self.nb.cells.append(cell)
         result = await self.kernel.run_code(source, cell, len(self.nb.cells) - 1)
+        if result.status == "died" and result.doubtful:
+            self.run.lived = max(self.run.lived, self.kernel.provisioner.watch.spent().wall)
         if (up := self.kernel.time_up) is not None:
             self.run.message = self.run.message or up.of_notebook
             self.run.starved |= up.starved
@@ -150,16 +153,13 @@ async def _run_session(session: _Session, followup: Followup | None) -> Run:
     finally:
         session.stop()
         _RUNNING.discard(task)
-    if session.left_out and session.run.message is None:
-        names = ", ".join(session.left_out[:_NAMES_SHOWN])
-        session.run.message = f"{len(session.left_out)} files too large for the work folder were left out: {names}"
     return session.run
 
 
 def run_notebook(
     nb: NotebookNode,
     *,
-    workdir: Path,
+    files: Mapping[str, bytes] = MappingProxyType({}),
     limits: Limits = Limits(),
     mode: Literal["bwrap", "none"] = "bwrap",
     followup: Followup | None = None,
@@ -172,8 +172,8 @@ def run_notebook(
     Parameters
     ----------
     nb : NotebookNode
-    workdir : Path
-        The notebook's own files; they are copied into the kernel's private work folder.
+    files : mapping of str to bytes
+        Contents of the kernel's private work folder, by names below it.
     limits : Limits
     mode : str
         "none" runs an ordinary local kernel: the bounds on time and output hold, nothing else does.
@@ -197,7 +197,7 @@ def run_notebook(
     if reason is not None:
         raise SandboxUnavailable(reason)
     options = {
-        "workdir": str(workdir),
+        "files": dict(files),
         "sandboxed": mode == "bwrap",
         "hidden": [str(folder) for folder in hidden],
     }

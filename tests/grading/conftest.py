@@ -41,11 +41,11 @@ QUESTIONS = {
     for question in (
         Question(
             "scara.T04",
-            lambda v: _transform(-1),
-            (mistake("sign_of_d2", 0.5, "**The sign of d2.**", lambda v: _transform(1)),),
+            _transform(-1),
+            (mistake("sign_of_d2", 0.5, "**The sign of d2.**", lambda answer: _transform(1)),),
         ),
-        Question("scara.d2_sign", lambda v: "B"),
-        Question("scara.forward", lambda v: _forward, probe=lambda rng: rng.uniform(0.1, 1, (4, 6)).tolist()),
+        Question("scara.d2_sign", "B"),
+        Question("scara.forward", _forward, probe=lambda rng: rng.uniform(0.1, 1, (4, 6)).tolist()),
     )
 }
 

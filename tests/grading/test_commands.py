@@ -156,10 +156,10 @@ def test_a_submission_that_cannot_be_judged_is_said_and_the_others_are_graded(
         small.hand_in(course_copy, student, small.answered(released))
     judge = preprocessors.judge
 
-    def broken(question, evidence, variant, earlier):
-        if variant.student == "ann":
+    def broken(question, evidence, student, earlier):
+        if student == "ann":
             raise ArithmeticError("the judge is ill")
-        return judge(question, evidence, variant, earlier)
+        return judge(question, evidence, student, earlier)
 
     monkeypatch.setattr(preprocessors, "judge", broken)
     assert run(course_copy, "grade", "scara") == 1

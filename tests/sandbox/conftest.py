@@ -24,14 +24,13 @@ def needs_sandbox():
 
 
 @pytest.fixture
-def run_cells(tmp_path):
-    """run_cells(*sources, mode=..., limits=..., followup=...) -> Run, with an empty work folder."""
+def run_cells():
+    """run_cells(*sources, mode=..., limits=..., followup=...) -> Run, with the files of a folder or none."""
 
     def run(*sources, limits=QUICK, mode="bwrap", workdir=None, **options):
         notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(source) for source in sources])
-        folder = workdir or tmp_path / "work"
-        folder.mkdir(exist_ok=True)
-        return sandbox.run_notebook(notebook, workdir=folder, limits=limits, mode=mode, **options)
+        files, _ = sandbox.read_folders([workdir] if workdir else [], limits.disk // 2)
+        return sandbox.run_notebook(notebook, files=files, limits=limits, mode=mode, **options)
 
     return run
 

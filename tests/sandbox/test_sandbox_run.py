@@ -45,7 +45,7 @@ def test_the_given_notebook_is_not_changed_and_only_code_is_run(either, tmp_path
         metadata={"kernelspec": {"name": "no-such-kernel", "display_name": "?"}},
     )
     before = copy.deepcopy(notebook)
-    run = sandbox.run_notebook(notebook, workdir=tmp_path, mode="none")
+    run = sandbox.run_notebook(notebook, mode="none")
     assert notebook == before
     assert list(run.cells) == [1] and run.cells[1].status == "ok"
 
@@ -213,7 +213,7 @@ import nbformat, pathlib, sys
 from autograder import sandbox
 cell = nbformat.v4.new_code_cell("import subprocess; subprocess.run(['sleep', '72.4'])")
 try:
-    sandbox.run_notebook(nbformat.v4.new_notebook(cells=[cell]), workdir=pathlib.Path(sys.argv[1]))
+    sandbox.run_notebook(nbformat.v4.new_notebook(cells=[cell]))
 except KeyboardInterrupt:
     sys.exit(42)
 """
@@ -240,7 +240,7 @@ def test_a_killed_grader_takes_its_kernels_along(needs_sandbox, tmp_path, alive)
 import nbformat, pathlib, sys
 from autograder import sandbox
 cell = nbformat.v4.new_code_cell("import subprocess; subprocess.run(['sleep', '73.4'])")
-sandbox.run_notebook(nbformat.v4.new_notebook(cells=[cell]), workdir=pathlib.Path(sys.argv[1]))
+sandbox.run_notebook(nbformat.v4.new_notebook(cells=[cell]))
 """
     process = subprocess.Popen(
         [sys.executable, "-c", script, str(tmp_path)], env={**os.environ, "TMPDIR": str(tmp_path)}
@@ -307,9 +307,9 @@ def test_without_a_sandbox_it_refuses(monkeypatch, tmp_path):
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("1")])
     monkeypatch.setattr(sandbox.run, "available", lambda: "bubblewrap (bwrap) is not installed; apt-get it")
     with pytest.raises(sandbox.SandboxUnavailable, match="not installed"):
-        sandbox.run_notebook(notebook, workdir=tmp_path)
+        sandbox.run_notebook(notebook)
     with pytest.raises(ValueError, match="bwrap"):
-        sandbox.run_notebook(notebook, workdir=tmp_path, mode="docker")
+        sandbox.run_notebook(notebook, mode="docker")
 
 
 def test_a_kernel_that_does_not_start_is_not_the_students_fault(run_cells, monkeypatch):

@@ -122,6 +122,7 @@ class SubmissionAutograde(Autograde, ChosenStudents, _NothingElse):
         if self.executions is None:
             try:
                 refuse_unless_ready(self)
+                refuse_unless_fit(self)
             except NotReady as reason:
                 self.log.error(str(reason))
                 raise NbGraderException(str(reason)) from None
@@ -191,6 +192,14 @@ def refuse_unless_ready(converter: SubmissionAutograde) -> None:
             known = {cell.name: (cell.max_score, sources.get(cell.name)) for cell in notebook.grade_cells}
         if sources.keys() != tracked_cells(nb).keys() or not checks.items() <= known.items():
             raise NotReady(f"{path} is not what the gradebook knows; run: autograder release {assignment}")
+
+
+def refuse_unless_fit(converter: SubmissionAutograde) -> None:
+    """`NotReady` if a trial notebook with the imports of the released ones does not run here."""
+    course = converter.coursedir
+    released = [released_path(course, course.assignment_id, name) for name in notebook_names(converter)]
+    if fault := SandboxExecute(parent=converter).find_fault(released, Path(course.root)):
+        raise NotReady(fault)
 
 
 class FeedbackExporter(HTMLExporter):

@@ -7,10 +7,11 @@ generate_feedback`` converts the graded notebook to a page (`Summarize`).
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import fields, replace
 from pathlib import Path
-from typing import cast
+from typing import Any, cast
 
 import nbformat
 from nbformat.notebooknode import NotebookNode
@@ -38,7 +39,8 @@ from ..cells import (
 )
 from ..entries import comment, score
 from ..inert import terminal_text
-from ..submission.execution import Execution, Mode, execute
+from ..submission import trial
+from ..submission.execution import Execution, Mode, confirm, execute
 from ..submission.restore import restore
 
 _TRAITS = {"bytes": Integer, "seconds": Float, "count": Integer}
@@ -74,16 +76,47 @@ class SandboxExecute(NbGraderPreprocessor):
         """The limits as they are configured; `ValueError` for one that makes no sense."""
         return Limits(**{limit.name: getattr(self, limit.name) for limit in fields(Limits)})
 
-    def run(self, nb: NotebookNode, folders: Iterable[Path], student: str, course: Path) -> Execution:
-        """Run a restored notebook with the files of `folders` beside it; the sandbox does not show the `course`."""
-        return execute(nb, folders, student, self.limits, cast(Mode, self.mode), (course,))
+    def run(self, nb: NotebookNode, folder: Path, released: Path, student: str, course: Path) -> Execution:
+        """Run a restored notebook with the files of its folder and of the released one beside it.
+
+        The sandbox does not show the `course`.
+        """
+        return execute(nb, (folder, released.parent), student, self.limits, cast(Mode, self.mode), (course,))
+
+    def run_alone(self, nb: NotebookNode, folder: Path, released: Path, student: str, course: Path) -> Execution:
+        """Run a notebook for the second and last time, because the first time ended in doubt.
+
+        The caller sees to it that nobody else's runs at the same time.
+
+        Raises
+        ------
+        MachineFault
+            If the machine is to blame.
+        """
+        return confirm(
+            lambda: self.run(nb, folder, released, student, course),
+            lambda lasting: self.find_fault([released], course, lasting),
+        )
+
+    def find_fault(self, released: Sequence[Path], course: Path, lasting: float | None = None) -> str | None:
+        """Say why this machine cannot run what the `released` notebooks need, None if it can (see `trial`)."""
+        settings = (released, self.limits, cast(Mode, self.mode), (course,))
+        return trial.find_fault_once(*settings) if lasting is None else trial.find_fault(*settings, lasting)
+
+    def _run_in_place(self, nb: NotebookNode, *whose: Any) -> Execution:
+        """Run a notebook that was not run ahead."""
+        with suppress(Exception):
+            execution = self.run(nb, *whose)
+            if not execution.doubt:
+                return execution
+        return self.run_alone(nb, *whose)
 
     def preprocess(self, nb: NotebookNode, resources: dict) -> tuple[NotebookNode, dict]:
         ours = resources["autograder"]
         execution: Execution | None = ours.get("execution")
         if execution is None or execution.fingerprint != notebook_record(nb).submission:
-            folders = [Path(ours["folder"]), Path(ours["released"]).parent]
-            execution = self.run(nb, folders, resources["nbgrader"]["student"], Path(ours["root"]))
+            folder, released, course = (Path(ours[name]) for name in ("folder", "released", "root"))
+            execution = self._run_in_place(nb, folder, released, resources["nbgrader"]["student"], course)
         for count, index in enumerate(sorted(execution.outputs), 1):
             nb.cells[index].outputs = execution.outputs[index]
             nb.cells[index].execution_count = count

@@ -3,25 +3,29 @@
 from __future__ import annotations
 
 import hashlib
+import importlib.util
 import json
-import shutil
-from collections.abc import Iterable
+import re
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Literal
 
 from nbformat.notebooknode import NotebookNode
 
 from autograder import questions
 from autograder.judge import MIME, Evidence
-from autograder.sandbox import CellRun, Limits, Run, run_notebook
+from autograder.sandbox import CellRun, Limits, Run, read_folders, run_notebook
 
 from ..cells import answer_id, check_cells, check_name, grade_id, is_check, notebook_record, question_id
 from ..inert import inert_outputs
-from .reading import MAX_FOLDER_BYTES, plain_files
 
 Mode = Literal["bwrap", "none"]
+_NAMES_SHOWN = 5
+
+
+class MachineFault(RuntimeError):
+    """A submission cannot be graded on this machine now; the message says why, and what to do."""
 
 
 @dataclass(frozen=True)
@@ -38,12 +42,21 @@ class Execution:
         By the grade id of the check cell.
     message : str or None
         What went wrong with the run as a whole.
+    doubt : str or None
+        Why the machine may be to blame for what went wrong.
+    starved : bool
+        Whether the machine let it run so little that nothing can be said about it.
+    lived : float
+        For how many seconds the longest-lived of the kernels lived that ended for no reason that is known.
     """
 
     fingerprint: str
     outputs: dict[int, list]
     evidence: dict[str, Evidence]
     message: str | None = None
+    doubt: str | None = None
+    starved: bool = False
+    lived: float = 0.0
 
     def __deepcopy__(self, memo: dict) -> Execution:
         # nbconvert deep-copies its resources; a packet that a student nested a thousand times must not go through that.
@@ -84,31 +97,61 @@ def execute(
         call = f"answer_probes({question_id(check)!r}, {json.dumps(arguments)!r})"
         return f"from dhkit.check import answer_probes\n{call}"
 
-    with TemporaryDirectory(prefix="autograder-") as work:
-        copy_plain_files(folders, Path(work))
-        run = run_notebook(nb, workdir=Path(work), limits=limits, mode=mode, followup=probe, hidden=hidden)
+    folders = list(folders)
+    files, left_out = read_folders(folders, limits.disk // 2)
+    shut = (*hidden, *folders)
+    run = run_notebook(nb, files=files, limits=limits, mode=mode, followup=probe, hidden=shut)
     counts = {index: count for count, index in enumerate(sorted(run.cells), 1)}
     outputs = {index: inert_outputs(cell.outputs, counts[index]) for index, cell in run.cells.items()}
     checks = {index: name for index in run.cells if (name := check_name(nb.cells[index]))}
     evidence = {name: _evidence(nb, index, name, run, sent) for index, name in checks.items()}
-    return Execution(record.submission, outputs, evidence, run.message)
+    message = run.message or _left_out(left_out)
+    doubt = run.doubt or next((cell.message for cell in run.cells.values() if _missed_import(cell)), None)
+    return Execution(record.submission, outputs, evidence, message, doubt, run.starved, run.lived)
 
 
-def copy_plain_files(folders: Iterable[Path], destination: Path) -> None:
-    """Copy the regular files of `folders`, notebooks excepted, up to `MAX_FOLDER_BYTES` for each folder."""
-    for folder in folders:
-        left = MAX_FOLDER_BYTES
-        for path in plain_files(folder):
-            left -= path.stat().st_size
-            if path.suffix != ".ipynb" and left >= 0:
-                target = destination / path.relative_to(folder)
-                target.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copyfile(path, target, follow_symlinks=False)
+def confirm(again: Callable[[], Execution], find_fault: Callable[[float], str | None]) -> Execution:
+    """Run a notebook once more whose first run ended in doubt; only this run counts.
+
+    Parameters
+    ----------
+    again : callable
+        Runs it, with no other student's notebook beside it.
+    find_fault : callable
+        Says what is wrong with the machine, if anything is, with a trial that lasts so many seconds (see `trial`).
+
+    Raises
+    ------
+    MachineFault
+        If it was the machine. A student cannot bring that about: what ends his kernel ends no trial.
+    """
+    try:
+        execution = again()
+    except Exception as error:
+        raise MachineFault(f"it could not be run, not even alone ({error}); grade again") from error
+    if execution.starved:
+        raise MachineFault(f"{execution.message}; grade again when the machine is less busy")
+    if execution.doubt and (fault := find_fault(execution.lived)):
+        raise MachineFault(f"{fault}; then grade again")
+    return execution
+
+
+def _left_out(names: list[str]) -> str | None:
+    if not names:
+        return None
+    return f"{len(names)} files too large for the work folder were left out: {', '.join(names[:_NAMES_SHOWN])}"
+
+
+def _missed_import(cell: CellRun) -> bool:
+    """Whether a cell could not import what this environment seems to hold."""
+    missing = re.match(r"ModuleNotFoundError: No module named '(\w+)", cell.message)
+    known = missing is None or importlib.util.find_spec(missing[1]) is not None
+    return cell.status == "error" and cell.message.startswith(("ModuleNotFoundError", "ImportError")) and known
 
 
 def _arguments(check: str, student: str, stamp: str, outputs: list) -> list | None:
     """Arguments to try a student's function with, None if the check cell handed in no function."""
-    packet = _last_packet(outputs)
+    packet = last_packet(outputs)
     answer = packet.get("answer") if isinstance(packet, dict) else None
     if not isinstance(answer, dict) or "function" not in answer:
         return None
@@ -120,8 +163,8 @@ def _arguments(check: str, student: str, stamp: str, outputs: list) -> list | No
 
 def _evidence(nb: NotebookNode, index: int, check: str, run: Run, sent: dict[int, list]) -> Evidence:
     trouble = _first_trouble(nb, index, check, run)
-    probes = (sent[index], _last_packet(run.followups.get(index, []))) if index in sent else None
-    packet = _last_packet(run.cells[index].outputs)
+    probes = (sent[index], last_packet(run.followups.get(index, []))) if index in sent else None
+    packet = last_packet(run.cells[index].outputs)
     return Evidence(packet, probes, trouble.message, trouble.status) if trouble else Evidence(packet, probes)
 
 
@@ -137,7 +180,7 @@ def _first_trouble(nb: NotebookNode, index: int, check: str, run: Run) -> CellRu
     return next((cell for cell in question if cell.status != "ok"), None)
 
 
-def _last_packet(outputs: list) -> object | None:
+def last_packet(outputs: list) -> object | None:
     """The JSON value displayed last under `MIME`."""
     for output in reversed(outputs):
         data = output.get("data")

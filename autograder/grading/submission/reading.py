@@ -11,20 +11,20 @@ import hashlib
 import json
 import os
 import re
-import stat
 import threading
-from collections.abc import Iterator
 from pathlib import Path
 
 from nbformat.notebooknode import NotebookNode
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_raw_cell
+
+from autograder import sandbox
+from autograder.sandbox import plain_files
 
 from ..cells import NotebookRecord, write_record
 
 MAX_BYTES = 10 << 20
 MAX_CELLS = 1000
 MAX_SOURCE = 500_000
-MAX_FILES = 500
 MAX_FOLDER_BYTES = 64 << 20
 
 _NEW = {"code": new_code_cell, "markdown": new_markdown_cell, "raw": new_raw_cell}
@@ -49,34 +49,13 @@ def read_submission(path: Path) -> NotebookNode:
 
 
 def plain_bytes(path: Path, limit: int) -> bytes:
-    """Content of a regular file of at most `limit` bytes; links, pipes and devices are `Unreadable`."""
+    """Content of a regular file of at most `limit` bytes; anything else is `Unreadable`."""
     try:
-        handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
-    except OSError as error:
-        raise Unreadable(f"{path.name} cannot be opened ({error.strerror})") from None
-    with os.fdopen(handle, "rb") as file:
-        status = os.fstat(handle)
-        if not stat.S_ISREG(status.st_mode):
-            raise Unreadable(f"{path.name} is not a regular file")
-        content = file.read(limit + 1)
-    if len(content) > limit:
-        raise Unreadable(f"{path.name} is larger than {limit >> 20} MiB; clear its outputs and hand it in again")
-    return content
-
-
-def plain_files(folder: Path) -> Iterator[Path]:
-    """Regular files under `folder` that can be read, in a stable order, links neither followed nor listed.
-
-    At most `MAX_FILES`; folders that start with a dot are passed over.
-    """
-    left = 0 if folder.is_symlink() else MAX_FILES
-    for place, folders, names in os.walk(folder, followlinks=False):
-        folders[:] = sorted(name for name in folders if not name.startswith(".") and name != "__pycache__")
-        for name in sorted(names):
-            path = Path(place, name)
-            if left and stat.S_ISREG(path.lstat().st_mode) and os.access(path, os.R_OK):
-                left -= 1
-                yield path
+        return sandbox.plain_bytes(path, limit)
+    except sandbox.TooLarge as reason:
+        raise Unreadable(f"{reason}; clear its outputs and hand it in again") from None
+    except sandbox.NotPlain as reason:
+        raise Unreadable(str(reason)) from None
 
 
 def fingerprint(folder: Path, released: bytes) -> str:

@@ -1,0 +1,244 @@
+"""A fault of the machine, or of a neighbour, is told as such and takes nobody's points; a student's own is his own."""
+
+import json
+import os
+import shutil
+import sys
+import sysconfig
+import threading
+from concurrent.futures import Future
+from pathlib import Path
+
+import pytest
+
+from autograder import cli, sandbox
+from autograder.grading import pipeline
+from autograder.grading.submission import trial
+from autograder.grading.submission.execution import Execution, MachineFault, confirm
+from autograder.sandbox import bubblewrap
+
+pytestmark = pytest.mark.sandbox
+
+
+def execution(**what):
+    return Execution("f", {}, {}, **what)
+
+
+def no_fault(lasting):
+    raise AssertionError("there is no reason to look for a fault")
+
+
+def test_the_second_run_counts():
+    second = execution()
+    assert confirm(lambda: second, no_fault) is second
+
+
+def test_what_fails_twice_while_a_trial_succeeds_is_the_students():
+    second, asked = execution(doubt="the kernel ended", lived=7.0), []
+    assert confirm(lambda: second, asked.append) is second and asked == [7.0]
+
+
+def test_what_fails_twice_as_a_trial_does_is_the_machines():
+    with pytest.raises(MachineFault, match="^no sandbox; then grade again$"):
+        confirm(lambda: execution(doubt="the kernel ended"), lambda lasting: "no sandbox")
+
+
+def test_who_hardly_got_to_run_is_not_judged():
+    starved = execution(doubt="stopped", starved=True, message="notebook stopped: the machine gave it 1 s")
+    with pytest.raises(MachineFault, match="gave it 1 s; grade again when the machine is less busy"):
+        confirm(lambda: starved, no_fault)
+
+
+def test_a_kernel_that_does_not_start_twice_is_the_machines():
+    def again():
+        raise sandbox.KernelStartError("the kernel did not start: it did not answer")
+
+    with pytest.raises(MachineFault, match="not even alone .*did not answer"):
+        confirm(again, no_fault)
+
+
+def test_notebooks_in_doubt_run_again_after_the_others_and_alone():
+    lock, inside, seen = threading.Lock(), set(), []
+    both = threading.Barrier(2)
+
+    def enter(student, kind):
+        with lock:
+            inside.add(student)
+            seen.append((kind, student, len(inside)))
+
+    def leave(student):
+        with lock:
+            inside.remove(student)
+
+    def run(student):
+        enter(student, "first")
+        if student in ("a", "b"):
+            both.wait(timeout=60)  # they do run side by side
+        leave(student)
+        if student == "b":
+            raise sandbox.KernelStartError("did not answer")
+        return {(student, "scara"): execution(doubt="stopped after 30 s" if student == "a" else None)}
+
+    def run_alone(student):
+        enter(student, "alone")
+        leave(student)
+        return {(student, "scara"): execution()}
+
+    order = [
+        (student, future.result()) for student, future in pipeline._run_ahead(run, run_alone, list("abcd"), jobs=2)
+    ]
+    assert sorted(student for student, _ in order[:2]) == ["c", "d"]
+    assert sorted(student for student, _ in order[2:]) == ["a", "b"]
+    assert [entry[::2] for entry in seen if entry[0] == "alone"] == [("alone", 1)] * 2
+    assert seen.index(next(entry for entry in seen if entry[0] == "alone")) == 4
+    assert all(not execution.doubt for _, executions in order for execution in executions.values())
+
+
+def test_a_failed_run_is_in_doubt():
+    future = Future()
+    future.set_exception(OSError(28, "No space left on device"))
+    assert pipeline._in_doubt(future)
+
+
+@pytest.fixture
+def graded(needs_sandbox, course_copy, capsys, monkeypatch):
+    """graded(*words) -> (exit code, results by student, what was said) of grading in an environment of one's own."""
+    monkeypatch.setattr(trial, "_went_well", set())
+
+    def grade(*words, jobs=2):
+        code = cli.main(["grade", "scara", "--json", "--jobs", str(jobs), "--course", str(course_copy), *words])
+        said = capsys.readouterr()
+        results = [json.loads(line) for line in said.out.splitlines()]
+        return code, {result["student"]: result for result in results}, said.err
+
+    return grade
+
+
+@pytest.fixture(scope="session")
+def needs_sandbox():
+    if reason := sandbox.available():
+        pytest.skip(reason)
+
+
+def without(monkeypatch, package):
+    """Take a package out of every sandbox to come."""
+    found = bubblewrap.mounts
+    place = os.path.join(sysconfig.get_path("purelib"), package)
+
+    def mounts(*arguments):
+        return [*found(*arguments), "--perms", "0755", "--tmpfs", place]
+
+    assert os.path.isdir(place)
+    monkeypatch.setattr(bubblewrap, "mounts", mounts)
+
+
+def test_an_environment_that_lacks_a_library_is_refused_by_its_name(graded, small, course_copy, released, monkeypatch):
+    small.hand_in(course_copy, "ann", small.answered(released))
+    with monkeypatch.context() as patch:
+        without(patch, "sympy")
+        code, results, said = graded()
+    assert (code, results) == (2, {})
+    assert "cannot do in the sandbox: import " in said and "sympy" in said and "make setup" in said
+    assert not (course_copy / "autograded").exists()
+    assert graded()[1]["ann"]["score"] == 20
+
+
+def test_a_library_that_goes_missing_on_the_way_costs_nobody_a_point(graded, small, course_copy, released, monkeypatch):
+    for student in ("ann", "ben"):
+        small.hand_in(course_copy, student, small.answered(released))
+    with monkeypatch.context() as patch:
+        patch.setattr(trial, "find_fault_once", lambda *settings: without(patch, "sympy"))
+        code, results, _ = graded()
+    assert code == 1 and {result["status"] for result in results.values()} == {"failed"}
+    assert "cannot do in the sandbox: import " in results["ann"]["found"] and "grade again" in results["ann"]["found"]
+    code, results, _ = graded()
+    assert code == 0 and [results[student]["score"] for student in ("ann", "ben")] == [20, 20]
+
+
+def replace_bwrap(tmp_path, monkeypatch, script):
+    """Put a program of our own before bubblewrap."""
+    program = tmp_path / "bin/bwrap"
+    program.parent.mkdir()
+    program.write_text(f"#!/bin/sh\n{script.format(bwrap=shutil.which('bwrap'), folder=tmp_path)}\n")
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{program.parent}:{os.environ['PATH']}")
+
+
+EVERY_SECOND = 'echo x >> {folder}/calls; [ $(($(wc -l < {folder}/calls) % 2)) = 0 ] && exit 1; exec {bwrap} "$@"'
+
+
+def test_a_bubblewrap_that_fails_every_second_time_changes_no_score(
+    graded, small, course_copy, released, tmp_path, monkeypatch
+):
+    students = {"ann": small.answered(released), "ben": small.answered(released, d2_sign="d2_sign = 'A'")}
+    for student, nb in students.items():
+        small.hand_in(course_copy, student, nb)
+    replace_bwrap(tmp_path, monkeypatch, EVERY_SECOND)
+    code, results, said = graded()
+    right = {"ann": 20, "ben": 16}
+    assert code in (0, 1, 2) and (results or "grade again" in said or "could not be run" in said)
+    for student, result in results.items():
+        assert result["score"] in (right[student], None), result
+        assert result["status"] == "graded" or "grade again" in result["found"]
+
+
+@pytest.mark.slow
+def test_a_bubblewrap_that_dies_is_no_dead_kernel_of_a_student(
+    graded, small, course_copy, released, tmp_path, monkeypatch
+):
+    slow = small.answered(released, d2_sign="import time; time.sleep(8); d2_sign = 'B'")
+    small.hand_in(course_copy, "ann", slow)
+    monkeypatch.setattr(trial, "find_fault_once", lambda *settings: None)  # as if it began on the way
+    replace_bwrap(tmp_path, monkeypatch, 'timeout -s KILL 6 {bwrap} "$@"')
+    code, results, _ = graded()
+    assert code == 1 and results["ann"]["status"] == "failed" and "grade again" in results["ann"]["found"]
+
+
+@pytest.mark.slow
+def test_a_student_cannot_turn_his_zero_into_a_fault_of_the_machine(graded, small, course_copy, released):
+    endings = {
+        "exits": "import os; os._exit(3)",
+        "killed": "import os, signal; os.kill(os.getpid(), signal.SIGKILL)",
+        "pretends": "raise ModuleNotFoundError(\"No module named 'sympy'\")",
+        "stops": "import os, signal; os.kill(os.getpid(), signal.SIGSTOP)",
+    }
+    for student, source in endings.items():
+        small.hand_in(course_copy, student, small.answered(released, T04=source))
+    code, results, _ = graded("--cell-seconds", "4")
+    assert code == 0
+    notes = {student: result["answers"][0]["note"] for student, result in results.items()}
+    assert notes == {"exits": "died", "killed": "died", "pretends": "error", "stops": "timeout"}
+    assert {result["score"] for result in results.values()} == {10}
+
+
+def test_a_machine_without_proc_is_refused_in_words(needs_sandbox, monkeypatch):
+    exists = os.path.exists
+    monkeypatch.setattr(bubblewrap.os.path, "exists", lambda path: path != "/proc/self/uid_map" and exists(path))
+    bubblewrap.available.cache_clear()
+    try:
+        assert "/proc is not mounted" in sandbox.available()
+    finally:
+        bubblewrap.available.cache_clear()
+
+
+def test_a_trial_imports_what_the_notebooks_import_and_hands_in_an_answer(small, released):
+    released.cells[1].source += "\n%matplotlib inline"
+    nb = trial.trial_notebook([small.solution(), released], lasting=2.2)
+    sources = [cell.source for cell in nb.cells]
+    assert sources[0] == "import time\ntime.sleep(3)"
+    assert "from sympy import Matrix, cos, sin, symbols" in sources and sources.count("import sympy") == 1
+    assert sources[-1].endswith("check('scara.T04', [0.5])")
+
+
+def test_every_released_notebook_passes_its_trial(needs_sandbox, small):
+    paths = sorted(Path(small.REPOSITORY, "exercises").glob("*/*.ipynb"))
+    assert len(paths) > 5 and trial.find_fault(paths, sandbox.Limits(), "bwrap", (small.REPOSITORY,)) is None
+
+
+def test_a_kit_that_hands_in_nothing_is_found_out(needs_sandbox, small, released, tmp_path, monkeypatch):
+    path = tmp_path / "scara.ipynb"
+    path.write_text(json.dumps(small.solution()))
+    monkeypatch.setattr(trial, "last_packet", lambda outputs: None)
+    assert "dhkit handed in nothing" in trial.find_fault([path], sandbox.Limits(), "bwrap")
+    monkeypatch.setattr(sys, "executable", "/bin/false")
+    assert "could not be run: the kernel did not start" in trial.find_fault([path], sandbox.Limits(), "none")
