@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import sys
 import uuid
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,7 +24,9 @@ from write import hand_in
 ROOT = Path(__file__).parents[1]
 MANUAL = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
 FOLDERS = ("autograder", "course", "docs", "exercises", "solutions", "tests")
-QUESTION, EXERCISE = "Adding a question", "Adding an exercise"
+QUESTION, ROBOT, EXERCISE = "Adding a question", "Adding a robot", "Adding an exercise"
+TUPLE_END = "\n)\n"
+NAMES = re.compile(r"^\[\w+\]|^def \w+", re.M)  # of questions and robots
 PYTHON_3 = {"kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}}
 
 
@@ -108,20 +111,22 @@ class Newcomer:
 
     def type(self, block: Block) -> str:
         """Type a block where the words above it say; returns the file."""
-        said = block.said
-        if place := named("new file", said):
-            assert not (self.root / place).exists(), f"{place} is not new"
+        if place := named("new file", block.said):
             (self.root / place).parent.mkdir(parents=True, exist_ok=True)
-            (self.root / place).write_text(block.text, encoding="utf-8")
-        elif place := named("as the last of `QUESTIONS` in", said):
-            text = (self.root / place).read_text(encoding="utf-8")
-            assert text.endswith("\n)\n"), f"{place} does not end with QUESTIONS"
-            (self.root / place).write_text(f"{text[:-2]}{block.text})\n", encoding="utf-8")
-        elif place := named("at the end of", said):
-            with (self.root / place).open("a", encoding="utf-8") as file:
-                file.write(f"\n{block.text}")
-        else:
-            place = self.type_cell(block)
+            return self.write(place, block, lambda text: block.text)
+        if place := named("as the last of `QUESTIONS` in", block.said):
+            return self.write(place, block, lambda text: f"{text.removesuffix(TUPLE_END)}\n{block.text})\n")
+        if place := named("at the end of", block.said):
+            return self.write(place, block, lambda text: f"{text}\n{block.text}")
+        return self.type_cell(block)
+
+    def write(self, place: str, block: Block, change: Callable[[str], str]) -> str:
+        file = self.root / place
+        text = file.read_text(encoding="utf-8") if file.exists() else ""
+        new = "new file" in block.said
+        if text and (new or set(NAMES.findall(block.text)) & set(NAMES.findall(text))):
+            pytest.skip(f"{place} has it already: somebody followed this recipe here")
+        file.write_text(change(text), encoding="utf-8")
         return place
 
     def type_cell(self, block: Block) -> str:
@@ -136,11 +141,15 @@ class Newcomer:
         return self.notebook
 
     def run(self, program: str, *words: str) -> str:
-        """Run a command in the copy; what it printed."""
+        """Run a command of the manual in the copy; what it printed."""
+        return self.python("-m", {"autograder": "autograder.cli", "pytest": "pytest"}[program], *words)
+
+    def python(self, *words: str) -> str:
         here = {"PYTHONPATH": os.pathsep.join((str(self.root), str(self.root / "course")))}
-        command = [sys.executable, "-m", {"autograder": "autograder.cli"}.get(program, program), *words]
-        done = subprocess.run(command, cwd=self.root, env=os.environ | here, capture_output=True, text=True)
-        assert done.returncode == 0, f"{program} {' '.join(words)}:\n{done.stdout[-5000:]}\n{done.stderr[-3000:]}"
+        done = subprocess.run(
+            [sys.executable, *words], cwd=self.root, env=os.environ | here, capture_output=True, text=True
+        )
+        assert done.returncode == 0, f"{' '.join(words)}:\n{done.stdout[-5000:]}\n{done.stderr[-3000:]}"
         return done.stdout
 
     def grade(self, *students: Submission) -> dict[str, dict[str, str]]:
@@ -183,6 +192,19 @@ def test_a_question(newcomer):
         "right",
         "x_and_y_exchanged",
     ]
+
+
+@pytest.mark.slow
+def test_a_robot(newcomer):
+    newcomer.follow(recipe(ROBOT))
+    asked = (
+        "from autograder.reference import robots; print(*robots.UR5.forward([0] * 6)[:3, 3], robots.UR5.has_inverse)"
+    )
+    *hand, has_inverse = newcomer.python("-c", asked).split()
+    assert [float(x) for x in hand] == pytest.approx([-0.81725, -0.19145, -0.00549]), (
+        "the data sheet's own zero position"
+    )
+    assert has_inverse == "False"
 
 
 @pytest.mark.slow

@@ -4,6 +4,8 @@ Functions build a robot for given lengths (metres, numbers or SymPy expressions)
 one (lower, upper) pair per joint. The constants in capitals are the same robots with default lengths, made at first
 use: ``robots.SCARA``, ``robots.scara(a2=0.4)``. The parallel robots ``robots.THREE_RPR`` and ``robots.THREE_RRR`` have
 models of their own kind. Joint angles in radians, poses 4x4. Sources are named with each robot.
+
+A new robot is a function at the end of this module, decorated with `_robot`.
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property, wraps
+from functools import cache, cached_property, partial, wraps
 from typing import Any
 
 import numpy as np
@@ -110,7 +112,7 @@ def _with_values(
 
 
 def _robot(model: type[InverseModel] | None) -> Callable[[Callable[..., DHTable]], Callable[..., Robot]]:
-    """Turns a function that returns a table into one that returns a robot.
+    """Turns a function that returns a table into one that returns a robot, and enters it in the catalogue.
 
     Its arguments with a number as default are lengths: the table is made with letters of the same names, the numbers
     are put behind them. A further argument ``limits`` takes joint limits.
@@ -118,7 +120,7 @@ def _robot(model: type[InverseModel] | None) -> Callable[[Callable[..., DHTable]
 
     def decorate(table: Callable[..., DHTable]) -> Callable[..., Robot]:
         signature = inspect.signature(table)
-        lengths = [name for name, each in signature.parameters.items() if isinstance(each.default, float)]
+        lengths = [name for name, each in signature.parameters.items() if isinstance(each.default, int | float)]
 
         @wraps(table)
         def robot(*args: Any, limits: Limits | None = None, **named: Any) -> Robot:
@@ -128,9 +130,34 @@ def _robot(model: type[InverseModel] | None) -> Callable[[Callable[..., DHTable]
             in_letters = table(**{**given.arguments, **letters})
             return _with_values(in_letters, model, {name: given.arguments[name] for name in lengths}, limits)
 
+        _DEFAULTS[table.__name__.upper()] = robot
         return robot
 
     return decorate
+
+
+_DEFAULTS: dict[str, Callable[[], Robot]] = {}
+_PARALLEL = {"THREE_RPR": ThreeRPR, "THREE_RRR": ThreeRRR}
+
+
+@cache
+def _default(name: str) -> Robot | ThreeRPR | ThreeRRR:
+    return (_DEFAULTS | _PARALLEL)[name]()
+
+
+def __getattr__(name: str) -> Robot | ThreeRPR | ThreeRRR:
+    if name in _DEFAULTS or name in _PARALLEL:
+        return _default(name)
+    raise AttributeError(f"no robot {name}: there are {', '.join(_DEFAULTS | _PARALLEL)}")
+
+
+def __dir__() -> list[str]:
+    return [*globals(), *_DEFAULTS, *_PARALLEL]
+
+
+def names() -> tuple[str, ...]:
+    """Names of the serial robots with default lengths."""
+    return tuple(_DEFAULTS)
 
 
 @_robot(PlanarArm)
@@ -151,6 +178,9 @@ def planar(lengths: Sequence[Entry], limits: Limits | None = None) -> Robot:
     rows = [(0, a, 0, 0, joint) for a, joint in zip((0, *letters), joints)]
     table = DHTable(rows, f"planar {n}R", tool=trans_x(letters[-1]))
     return _with_values(table, PlanarArm, {letter.name: length for letter, length in zip(letters, lengths)}, limits)
+
+
+_DEFAULTS |= {"PLANAR_3R": planar_3r, "PLANAR_4R": lambda: planar((0.4, 0.3, 0.25, 0.15))}
 
 
 @_robot(Scara)
@@ -310,52 +340,11 @@ def pen(
     return DHTable(rows, name, (_t1, _t2, _t3), tool=trans_x(p1))
 
 
+_DEFAULTS |= {f"PEN_{reading}": partial(pen, reading=reading) for reading in "ABC"}
+
+
 @_robot(ElbowArm)
 def pen_repaired(h1: Entry = 0.1, L1: Entry = 0.3, h2: Entry = 0.2, L2: Entry = 0.25, p1: Entry = 0.5) -> DHTable:
     """Pen robot with L2 taken as a link length: a hypothetical repair, three real freedoms."""
     rows = [(0, 0, 0, h1, _t1), (0, L1, -_HALF, h2, _t2 - _HALF), (0, L2, 0, 0, _t3)]
     return DHTable(rows, "pen robot, repaired", tool=trans_x(p1))
-
-
-_DEFAULTS: dict[str, Callable[[], Robot]] = {
-    "PLANAR_2R": planar_2r,
-    "PLANAR_3R": planar_3r,
-    "PLANAR_4R": lambda: planar((0.4, 0.3, 0.25, 0.15)),
-    "SCARA": scara,
-    "SCARA_EPFL": scara_epfl,
-    "ADEPT_S600": adept_s600,
-    "RX90": rx90,
-    "SPHERICAL_WRIST": spherical_wrist,
-    "KR210": kr210,
-    "EPFL_ARM": epfl_arm,
-    "ELBOW_3R": elbow_3r,
-    "PUMA": puma,
-    "PUMA_PRINTED": puma_printed,
-    "PEN": pen,
-    "PEN_A": lambda: pen(reading="A"),
-    "PEN_B": lambda: pen(reading="B"),
-    "PEN_C": lambda: pen(reading="C"),
-    "PEN_REPAIRED": pen_repaired,
-}
-
-_PARALLEL = {"THREE_RPR": ThreeRPR, "THREE_RRR": ThreeRRR}
-
-
-@cache
-def _default(name: str) -> Robot | ThreeRPR | ThreeRRR:
-    return (_DEFAULTS | _PARALLEL)[name]()
-
-
-def __getattr__(name: str) -> Robot | ThreeRPR | ThreeRRR:
-    if name in _DEFAULTS or name in _PARALLEL:
-        return _default(name)
-    raise AttributeError(f"no robot {name}: there are {', '.join(_DEFAULTS | _PARALLEL)}")
-
-
-def __dir__() -> list[str]:
-    return [*globals(), *_DEFAULTS, *_PARALLEL]
-
-
-def names() -> tuple[str, ...]:
-    """Names of the serial robots with default lengths."""
-    return tuple(_DEFAULTS)
