@@ -14,8 +14,8 @@ import numpy as np
 
 from dhkit import wire
 
-from .decode import Blank, Function, Malformed, Number, Value, decode_answer
-from .kinds import KINDS, Entries
+from .decode import Blank, Decoded, Function, Malformed, Number, decode, decode_answer
+from .kinds import Entries, compare, read
 from .question import Family, Question
 from .tree import UNEXPLAINED
 
@@ -40,10 +40,10 @@ def keep(question: str, packet: object) -> str | None:
         text = json.dumps(packet, separators=(",", ":"))
     except (ValueError, RecursionError):
         return None
-    return text if len(text) <= MAX_KEPT and not isinstance(answer, Function) else None
+    return text if len(text) <= MAX_KEPT and not isinstance(answer.value, Function) else None
 
 
-def kept(question: str, text: object) -> Value | None:
+def kept(question: str, text: object) -> Decoded | None:
     """The answer inside a text made by `keep`; None if it is anything else."""
     if not isinstance(text, str) or len(text) > MAX_KEPT:
         return None
@@ -67,8 +67,8 @@ class Attempt:
 
     student: str
     said: str
-    answer: Value | None = None
-    right: Value | None = None
+    answer: Decoded | None = None
+    right: Decoded | None = None
 
 
 @dataclass(frozen=True)
@@ -126,13 +126,13 @@ def cluster(question: Question, attempts: Iterable[Attempt]) -> tuple[Cluster, .
     return tuple(sorted(found, key=lambda cluster: -cluster.size))
 
 
-def right_answer(question: Question, student: str) -> Value | None:
+def right_answer(question: Question, student: str) -> Decoded | None:
     """The question's own answer for `student`, as if it had been handed in; None for a function."""
-    if question.public.kind not in KINDS:
+    if question.form.kind == "function":
         return None
     answer = question.answer(student)
     answer = answer.solutions if isinstance(answer, Family) else answer
-    return decode_answer(wire.packet(question.id, answer=wire.encode(answer)), question.id)
+    return decode(wire.encode(answer))
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,21 +149,17 @@ class _Form:
         question = self.question
         try:
             with np.errstate(all="ignore"):
-                return (
-                    KINDS[question.public.kind]
-                    .compare(question.public, self.value, other.value, question.setting())
-                    .equal
-                )
+                return compare(question.form, self.value, other.value, question.setting()).equal
         except (ArithmeticError, IndexError, ValueError):
             # A kind counts on a sound answer on one side, the question's own. Here both are students'.
             return False
 
 
-def _form(question: Question, answer: Value | None) -> _Form | None:
-    if answer is None or question.public.kind not in KINDS:
+def _form(question: Question, answer: Decoded | None) -> _Form | None:
+    if answer is None or question.form.kind == "function":
         return None
     try:
-        value = KINDS[question.public.kind].read(question.public, answer)
+        value = read(question.form, answer)
     except Malformed:
         return None
     if not isinstance(value, Entries):

@@ -7,18 +7,10 @@ work is bounded before it is done: number of nodes, depth, digits, length of tex
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
-from dhkit.wire import FORMAT, FUNCTIONS
-
-MAX_NODES = 20_000
-MAX_DEPTH = 60
-MAX_DIGITS = 300
-MAX_TEXT = 1000
-
-_ARITIES = {"add": None, "mul": None, "pow": 2, "atan2": 2, "Mod": 2, "Max": None, "Min": None}
-_OPERATIONS = {**{name: _ARITIES.get(name, 1) for name in FUNCTIONS}, "add": None, "mul": None, "pow": 2}
+from dhkit.wire import ARITIES, FORMAT, MAX_DEPTH, MAX_DIGITS, MAX_NODES, MAX_TEXT
 
 
 class Malformed(ValueError):
@@ -61,7 +53,7 @@ class Text:
 class Record:
     """A dictionary with text keys."""
 
-    items: tuple[tuple[str, object], ...]
+    items: tuple[tuple[str, Value], ...]
 
 
 @dataclass(frozen=True)
@@ -73,7 +65,7 @@ class Function:
 
 @dataclass(frozen=True)
 class Foreign:
-    """An object with no place on the wire; only the name of its type is known."""
+    """An object with no place on the wire; only the name of its type is known. As part of an expression it has no value."""
 
     type: str
 
@@ -90,13 +82,26 @@ class Blank:
     """Not attempted."""
 
 
-Expression = Number | Constant | Symbol | Call
-Value = Expression | Text | Record | Function | Foreign | Failure | Blank | tuple
+Expression = Number | Constant | Symbol | Call | Foreign
+Value = Expression | Text | Record | Function | Failure | Blank | tuple
 
 
-def decode_answer(packet: object, question: str) -> Value:
+@dataclass(frozen=True)
+class Decoded:
+    """An answer that was found to be within the bounds: what it says, and the node it was."""
+
+    value: Value
+    node: object = field(compare=False, repr=False)
+
+
+def decode(node: object) -> Decoded:
+    """One node; `Malformed` if it breaks the wire format or is beyond its bounds."""
+    return Decoded(_Reader().value(node), node)
+
+
+def decode_answer(packet: object, question: str) -> Decoded:
     """The answer inside a packet of `dhkit.check`; `Malformed` if it is not one for `question`."""
-    return _Reader().value(_content(packet, question, "answer"))
+    return decode(_content(packet, question, "answer"))
 
 
 def decode_student(packet: object) -> str | None:
@@ -105,13 +110,13 @@ def decode_student(packet: object) -> str | None:
     return None if typed is None else _text(typed)
 
 
-def decode_probes(packet: object, question: str, count: int) -> tuple[Value, ...]:
+def decode_probes(packet: object, question: str, count: int) -> tuple[Decoded, ...]:
     """The `count` results inside a packet of `dhkit.check.answer_probes`."""
     content = _content(packet, question, "probes")
     if not isinstance(content, list) or len(content) != count:
         raise Malformed("the function's answers do not match the arguments that were sent")
     reader = _Reader()
-    return tuple(reader.value(item) for item in content)
+    return tuple(Decoded(reader.value(item), item) for item in content)
 
 
 def _content(packet: object, question: str, key: str) -> object:
@@ -165,22 +170,29 @@ class _Reader:
         return Number(float(content))
 
     def _complex(self, content: object, depth: int) -> Number:
-        real, imaginary = (part.value for part in self._numbers(content, depth))
-        return Number(complex(real, imaginary))
+        real, imaginary = self._pair(content, depth)
+        try:
+            return Number(complex(real, imaginary))
+        except OverflowError:
+            raise Malformed("a number of the answer is out of bounds") from None
 
     def _rat(self, content: object, depth: int) -> Number:
-        numerator, denominator = (part.value for part in self._numbers(content, depth))
+        numerator, denominator = self._pair(content, depth)
         if not isinstance(numerator, int) or not isinstance(denominator, int) or denominator == 0:
             raise Malformed("the answer is not in the wire format")
         return Number(Fraction(numerator, denominator))
 
-    def _numbers(self, content: object, depth: int) -> tuple[Number, Number]:
+    def _pair(self, content: object, depth: int) -> tuple[int | float | Fraction, int | float | Fraction]:
         if not isinstance(content, list) or len(content) != 2:
             raise Malformed("the answer is not in the wire format")
-        pair = tuple(self.value(item, depth + 1) for item in content)
-        if not all(isinstance(part, Number) and not isinstance(part.value, complex) for part in pair):
+        first, second = (self._real(item, depth + 1) for item in content)
+        return first, second
+
+    def _real(self, node: object, depth: int) -> int | float | Fraction:
+        part = self.value(node, depth)
+        if not isinstance(part, Number) or isinstance(part.value, complex):
             raise Malformed("the answer is not in the wire format")
-        return pair
+        return part.value
 
     def _const(self, content: object, depth: int) -> Constant:
         if content not in ("pi", "E", "I"):
@@ -193,15 +205,16 @@ class _Reader:
     def _call(self, content: object, depth: int) -> Call:
         if not isinstance(content, list) or len(content) < 2 or not isinstance(content[0], str):
             raise Malformed("the answer is not in the wire format")
-        if content[0] not in _OPERATIONS:
+        if content[0] not in ARITIES:
             raise Malformed("the answer uses a function that is not known here")
-        arity = _OPERATIONS[content[0]]
+        arity = ARITIES[content[0]]
         if arity is not None and len(content) != arity + 1:
             raise Malformed(f"{content[0]} has the wrong number of arguments")
-        args = tuple(self.value(item, depth + 1) for item in content[1:])
-        if not all(isinstance(arg, Expression) for arg in args):
+        args = [self.value(item, depth + 1) for item in content[1:]]
+        expressions = tuple(arg for arg in args if isinstance(arg, Expression))
+        if len(expressions) < len(args):
             raise Malformed("the answer is not in the wire format")
-        return Call(content[0], args)
+        return Call(content[0], expressions)
 
     def _dict(self, content: object, depth: int) -> Record:
         if not isinstance(content, list) or not all(isinstance(item, list) and len(item) == 2 for item in content):
@@ -211,6 +224,9 @@ class _Reader:
     def _function(self, content: object, depth: int) -> Function:
         return Function(_text(content))
 
+    def _large(self, content: object, depth: int) -> Foreign:
+        return Foreign(_text(content))
+
     def _unknown(self, content: object, depth: int) -> Foreign:
         return Foreign(_text(content))
 
@@ -218,7 +234,21 @@ class _Reader:
         return Failure(_text(content))
 
 
-_TAGGED = ("blank", "int", "float", "complex", "rat", "const", "sym", "call", "dict", "function", "unknown", "error")
+_TAGGED = (
+    "blank",
+    "int",
+    "float",
+    "complex",
+    "rat",
+    "const",
+    "sym",
+    "call",
+    "dict",
+    "function",
+    "large",
+    "unknown",
+    "error",
+)
 
 
 def _text(content: object) -> str:

@@ -10,18 +10,9 @@ from functools import reduce
 import mpmath
 import numpy as np
 
-from .decode import Call, Constant, Expression, Number, Symbol
+from dhkit.values import CONSTANTS, OPERATIONS, as_complex
 
-_NUMPY = {
-    "sin": np.sin, "cos": np.cos, "tan": np.tan,
-    "cot": lambda x: 1 / np.tan(x), "sec": lambda x: 1 / np.cos(x), "csc": lambda x: 1 / np.sin(x),
-    "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "acot": lambda x: np.arctan(1 / x),
-    "atan2": lambda y, x: np.arctan2(_real(y), _real(x)) + 0j,
-    "exp": np.exp, "log": np.log, "Abs": lambda x: np.abs(x) + 0j, "sign": lambda x: np.sign(_real(x)) + 0j,
-    "Max": lambda *xs: reduce(np.maximum, map(_real, xs)) + 0j, "Min": lambda *xs: reduce(np.minimum, map(_real, xs)) + 0j,
-    "Mod": lambda x, y: np.mod(_real(x), _real(y)) + 0j,
-    "add": lambda *xs: reduce(operator.add, xs), "mul": lambda *xs: reduce(operator.mul, xs), "pow": np.power,
-}  # fmt: skip
+from .decode import Call, Constant, Expression, Foreign, Number, Symbol
 
 _MPMATH = {
     "sin": mpmath.sin, "cos": mpmath.cos, "tan": mpmath.tan,
@@ -40,11 +31,6 @@ _MAX_EXPONENT = 1000
 _MAX_ARGUMENT = 1e6
 
 
-def _real(x):
-    """The real part where it is the whole value, nan elsewhere."""
-    return np.where(np.imag(x) == 0, np.real(x), np.nan)
-
-
 def evaluate(expression: Expression, samples: Mapping[str, np.ndarray]) -> np.ndarray:
     """Complex values of `expression` at N sample points given as one (N,) array per symbol; nan or inf where undefined."""
     values = np.empty(len(next(iter(samples.values()), (0,))), complex)
@@ -56,21 +42,15 @@ def evaluate(expression: Expression, samples: Mapping[str, np.ndarray]) -> np.nd
 def _evaluate(expression: Expression, samples: Mapping[str, np.ndarray]):
     match expression:
         case Number(value):
-            return _as_complex(value)
+            return as_complex(value)
         case Constant(name):
-            return {"pi": np.pi + 0j, "E": np.e + 0j, "I": 1j}[name]
+            return CONSTANTS[name]
         case Symbol(name):
             return samples[name] + 0j
         case Call(function, args):
-            return _NUMPY[function](*(_evaluate(arg, samples) for arg in args))
-
-
-def _as_complex(value) -> np.complex128:
-    """As NumPy's number, which divides by zero without an exception."""
-    try:
-        return np.complex128(value)
-    except OverflowError:
-        return np.complex128(np.inf)
+            return OPERATIONS[function](*(_evaluate(arg, samples) for arg in args))
+        case Foreign():
+            return np.nan
 
 
 def evaluate_exactly(expression: Expression, point: Mapping[str, float]) -> mpmath.mpc | None:
@@ -102,6 +82,8 @@ def _evaluate_exactly(expression: Expression, point: Mapping[str, float]):
             if function not in ("add", "mul") and any(abs(value) > _MAX_ARGUMENT for value in values):
                 raise OverflowError
             return _MPMATH[function](*values)
+        case Foreign():
+            raise ValueError
 
 
 def symbols(expression: Expression) -> frozenset[str]:

@@ -7,10 +7,10 @@ from collections.abc import Callable
 from functools import lru_cache
 
 from dhkit import wire
-from dhkit.public import PublicQuestion
+from dhkit.forms import Form
 
-from .decode import Malformed, Value, decode_answer
-from .kinds import KINDS, Entries
+from .decode import Decoded, Malformed, decode
+from .kinds import read
 from .question import Family, Question, Way, take
 from .tree import IMPOSSIBLE
 
@@ -31,19 +31,15 @@ def expected_result(question: Question, ways: tuple[Way, ...], student: str, arg
         result, family = _unwrap(function(*args))
     except IMPOSSIBLE as error:
         return Malformed(f"no value: {error}"), False
-    form = question.public.returns
-    return read_result(form, decode_answer(wire.packet(form.id, answer=wire.encode(result)), form.id)), family
+    return read_result(question.returns, decode(wire.encode(result))), family
 
 
-def read_result(form: PublicQuestion, result: Value) -> object:
+def read_result(form: Form, result: Decoded) -> object:
     """A decoded result of a function in its kind's own form, or the complaint about it."""
     try:
-        answer = KINDS[form.kind].read(form, result)
+        return read(form, result)
     except Malformed as fault:
         return fault
-    # nan is how numpy fails: as an exception would, it says that there is no value.
-    failed = isinstance(answer, Entries) and not answer.finite()
-    return Malformed(f"expected {form.expected}, found a value that is not finite") if failed else answer
 
 
 @lru_cache(maxsize=8192)
@@ -56,8 +52,7 @@ def _answer(question: Question, ways: tuple[Way, ...], student: str | None) -> t
 @lru_cache(maxsize=8192)
 def _read(question: Question, sent: str) -> object:
     """An answer as the wire carries it, read: two mistakes mostly come to the same whichever is made first."""
-    form = question.public
-    return KINDS[form.kind].read(form, decode_answer(wire.packet(form.id, answer=json.loads(sent)), form.id))
+    return read(question.form, decode(json.loads(sent)))
 
 
 @lru_cache(maxsize=1024)
@@ -65,7 +60,7 @@ def _reference(question: Question, ways: tuple[Way, ...], student: str | None) -
     """The question's own answer before any step; steps make new ones of it and leave it as it is."""
     wrong = {name: value for way in ways for name, value in (way.wrong or {}).items()}
     answer = question.compute(student or "", wrong)
-    return _remember(answer) if question.public.kind == "function" else answer
+    return _remember(answer) if question.form.kind == "function" else answer
 
 
 def _split(ways: tuple[Way, ...]) -> tuple[tuple[Way, ...], list]:

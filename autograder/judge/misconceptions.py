@@ -19,7 +19,7 @@ from dataclasses import replace
 import numpy as np
 import sympy
 
-from dhkit.public import DH_COLUMNS
+from dhkit.forms.dh_table import DH_COLUMNS
 
 from .question import Mistake, Step, Wrong, mistake
 

@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from .decode import Malformed, Value
+from .decode import Decoded, Malformed
 from .expected import expected_result, read_result
-from .kinds import KINDS, Comparison
+from .kinds import Comparison
+from .kinds import compare as compare_answers
 from .question import Question, Way
 from .tree import Verdict, walk
 
 
-def judge_results(question: Question, arguments: list[list], results: list[Value], student: str) -> Verdict:
+def judge_results(question: Question, arguments: list[list], results: Sequence[Decoded], student: str) -> Verdict:
     """The verdict on a function that returned `results` for the argument lists `arguments`.
 
     Raises `Malformed` if none of the results has the form asked for.
     """
-    form = question.public.returns
+    form = question.returns
     found = [read_result(form, result) for result in results]
     if all(isinstance(result, Malformed) for result in found):
         raise found[0]
@@ -29,7 +31,7 @@ def judge_results(question: Question, arguments: list[list], results: list[Value
         if isinstance(result, Malformed) or isinstance(other, Malformed):
             return Comparison(isinstance(result, Malformed) and isinstance(other, Malformed), 0.0)
         setting = question.setting() if ways else question.setting(student, *args)
-        return KINDS[form.kind].compare(form, result, other, replace(setting, turn=turn, family=family and not ways))
+        return compare_answers(form, result, other, replace(setting, turn=turn, family=family and not ways))
 
     cases: dict[str, list[Comparison]] = {}
     for args, result in calls:

@@ -13,6 +13,8 @@ import numpy as np
 import sympy
 
 from dhkit import public
+from dhkit.forms import Form
+from dhkit.forms.function import Function
 from dhkit.variants import OwnNumbers, numbers
 
 from .chain import SAME_MODEL
@@ -170,6 +172,17 @@ class Question:
         return public.find(self.id)
 
     @property
+    def form(self) -> Form:
+        """The form in which the answer is asked for."""
+        return self.public.form
+
+    @property
+    def returns(self) -> Form:
+        """The form of what the function returns that is asked for."""
+        assert isinstance(self.form, Function)
+        return self.form.returns
+
+    @property
     def exercise(self) -> str:
         return self.id.partition(".")[0]
 
@@ -195,15 +208,15 @@ class Question:
         if not _is_function(self.reference):
             return self.reference
         reference = partial(_with_own(self.reference, self.numbers(student)), **wrong)
-        return reference if self.public.kind == "function" else reference()
+        return reference if self.form.kind == "function" else reference()
 
     @cached_property
     def samples(self) -> dict[str, np.ndarray]:
         """Sample values of the symbols: one (12,) array per symbol, the same at every call."""
         rng = np.random.default_rng(_seed(self.id))
-        draw = self.draw or (lambda rng: {name: _independent(name, rng) for name in self.public.symbols})
+        draw = self.draw or (lambda rng: {name: _independent(name, rng) for name in self.form.symbols})
         draws = [draw(rng) for _ in range(12)]
-        return {name: np.array([sample[name] for sample in draws]) for name in self.public.symbols}
+        return {name: np.array([sample[name] for sample in draws]) for name in self.form.symbols}
 
     def probes(self, student: str, seed: int) -> list[list] | None:
         """Argument lists for a function question (JSON-able), None for any other kind."""

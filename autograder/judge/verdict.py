@@ -9,11 +9,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from dhkit import public
+from dhkit.forms import Form
+from dhkit.nodes import is_blank
 from dhkit.variants import NOBODY
 
-from .decode import Blank, Failure, Function, Malformed, Value, decode_answer, decode_probes, decode_student
+from .decode import Decoded, Failure, Malformed, decode_answer, decode_probes, decode_student
 from .expected import expected_answer
-from .kinds import KINDS, Comparison, Entries, Setting, describe
+from .kinds import Comparison, Entries, Setting, read
+from .kinds import compare as compare_answers
 from .probing import judge_results
 from .question import Question, Way
 from .tree import Verdict, walk
@@ -54,29 +57,29 @@ def judge(
     if evidence.packet is None:
         return _explain_silence(evidence)
     try:
-        value = decode_answer(evidence.packet, question.id)
+        answer = decode_answer(evidence.packet, question.id)
         typed = decode_student(evidence.packet)
-        if question.public.kind != "function" and _is_blank(value):
+        if _is_blank(question.form, answer):
             return _explain_blank(evidence)
-        verdict = _judge_value(question, evidence, value, student, earlier or {})
+        verdict = _judge_answer(question, evidence, answer, student, earlier or {})
         if verdict.share < 1 and typed is not None and typed != student:
-            return _judge_for_another(question, evidence, value, typed) or verdict
+            return _judge_for_another(question, evidence, answer, typed) or verdict
         return verdict
     except Malformed as fault:
         return Verdict(0.0, "malformed", f"**Not in the form asked for.** {plain(str(fault))}.")
 
 
-def _judge_value(
-    question: Question, evidence: Evidence, value: Value, student: str, earlier: Mapping[str, Evidence]
+def _judge_answer(
+    question: Question, evidence: Evidence, answer: Decoded, student: str, earlier: Mapping[str, Evidence]
 ) -> Verdict:
-    if question.public.kind == "function":
-        return _judge_function(question, evidence, value, student)
-    return _judge_data(question, value, student, earlier)
+    if question.form.kind == "function":
+        return _judge_function(question, evidence, answer, student)
+    return _judge_data(question, answer, student, earlier)
 
 
-def _judge_for_another(question: Question, evidence: Evidence, value: Value, typed: str) -> Verdict | None:
+def _judge_for_another(question: Question, evidence: Evidence, answer: Decoded, typed: str) -> Verdict | None:
     """The verdict where the answer is right for the numbers of the id that was typed, which is not the student's own."""
-    if _judge_value(question, evidence, value, typed, {}).note != "right":
+    if _judge_answer(question, evidence, answer, typed, {}).note != "right":
         return None
     whose = "nobody: no id was typed at the top of the notebook" if typed == NOBODY else f"the id {plain(typed)}"
     feedback = f"**Right, but for the numbers of another student**: for those of {whose}. Type your own id at the top, and answer with your numbers."
@@ -122,20 +125,17 @@ def _explain_blank(evidence: Evidence) -> Verdict:
     return Verdict(0.0, "not_attempted", "Not attempted.")
 
 
-def _is_blank(value: Value) -> bool:
-    if isinstance(value, tuple):
-        return bool(value) and all(map(_is_blank, value))
-    return isinstance(value, Blank)
+def _is_blank(form: Form, answer: Decoded) -> bool:
+    return is_blank(form.arranged(answer.node))
 
 
-def _judge_data(question: Question, value: Value, student: str, earlier: Mapping[str, Evidence]) -> Verdict:
-    kind, form = KINDS[question.public.kind], question.public
-    answer = kind.read(form, value)
-    setting = question.setting(student)
+def _judge_data(question: Question, decoded: Decoded, student: str, earlier: Mapping[str, Evidence]) -> Verdict:
+    form, setting = question.form, question.setting(student)
+    answer = read(form, decoded)
 
     def compare(ways: tuple[Way, ...], turn: float) -> Comparison:
         other, family = expected_answer(question, ways, student)
-        return kind.compare(
+        return compare_answers(
             form, answer, other, replace(setting, turn=turn, family=family and not ways, patient=not ways)
         )
 
@@ -151,29 +151,28 @@ def _follows(question: Question, answer: object, setting: Setting, earlier: Mapp
         return False
     before = public.find(question.follows.earlier)
     try:
-        start = KINDS[before.kind].read(before, decode_answer(earlier[before.id].packet, before.id))
+        start = read(before.form, decode_answer(earlier[before.id].packet, before.id))
     except Malformed:
         return False
     values = start.values(question.samples)
     if not np.isfinite(values).all():
         return False
     with np.errstate(all="ignore"):
-        expected = np.asarray(question.follows.model(values.reshape(len(values), *before.shape)), complex)
+        expected = np.asarray(question.follows.model(values.reshape(len(values), *before.form.shape)), complex)
     following = Entries(known=expected.reshape(len(values), -1))
-    return KINDS[question.public.kind].compare(question.public, answer, following, setting).equal
+    return compare_answers(question.form, answer, following, setting).equal
 
 
-def _judge_function(question: Question, evidence: Evidence, value: Value, student: str) -> Verdict:
-    if _is_blank(value):
-        return _explain_blank(evidence)
-    if not isinstance(value, Function):
-        raise Malformed(f"expected {question.public.expected}, found {describe(value)}")
+def _judge_function(question: Question, evidence: Evidence, answer: Decoded, student: str) -> Verdict:
+    if complaint := question.form.complaint(answer.node):
+        raise Malformed(complaint)
     if evidence.probes is None or evidence.probes[1] is None:
         return _explain_silence(evidence)
     arguments, raw = evidence.probes
     results = decode_probes(raw, question.id, len(arguments))
-    if all(map(_is_blank, results)):
+    if all(_is_blank(question.returns, result) for result in results):
         return _explain_blank(evidence)
-    if all(isinstance(result, Failure) for result in results):
-        return Verdict(0.0, "error", f"{_TROUBLE['error']} {plain(results[0].message)}")
+    failures = [result.value for result in results if isinstance(result.value, Failure)]
+    if len(failures) == len(results):
+        return Verdict(0.0, "error", f"{_TROUBLE['error']} {plain(failures[0].message)}")
     return judge_results(question, arguments, results, student)

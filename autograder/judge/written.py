@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from .decode import Blank, Call, Constant, Failure, Foreign, Function, Number, Record, Symbol, Text, Value
+from .decode import Blank, Call, Constant, Expression, Failure, Foreign, Function, Number, Record, Symbol, Text, Value
 
 LIMIT = 1200
 # How tightly a text holds together: what binds less than its surroundings demand is put in parentheses.
@@ -45,8 +45,6 @@ def _text(value: Value) -> str:
             return _quoted(text)
         case Function(name):
             return f"a function {_printable(name)}"
-        case Foreign(type):
-            return f"an object of type {_printable(type)}"
         case Failure(message):
             return f"an error: {_printable(message)}"
         case Blank():
@@ -62,12 +60,14 @@ def _quoted(text: str) -> str:
     return f'"{_printable(text)}"'
 
 
-def _expression(value: Number | Constant | Symbol | Call) -> _Part:
+def _expression(value: Expression) -> _Part:
     match value:
         case Number(number):
             return _number(number)
         case Constant(name) | Symbol(name):
             return _printable(name), _ATOM
+        case Foreign(type):
+            return f"an object of type {_printable(type)}", _ATOM
         case Call("add", args):
             return _sum(args)
         case Call("mul", args):

@@ -7,17 +7,17 @@ runs the question's public checks, and leaves the encoded answer in the notebook
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable
 
 from . import public, variants, wire
-from .forms import blanks, complaint, is_blank, names_of
+from .nodes import blanks, is_blank
 from .notice import Line, Notice, show
 from .public_checks import run_public_check
 
-_functions: dict[str, object] = {}
+_functions: dict[str, Callable] = {}
 
 
-def check(id: str, answer=...) -> None:
+def check(id: str, answer: object = ...) -> None:
     """Hand in `answer` to question `id` and show what can be said about it here.
 
     Parameters
@@ -35,11 +35,12 @@ def check(id: str, answer=...) -> None:
     """
     question = public.find(id)
     node = wire.encode(answer)
-    if question.kind == "function" and callable(answer):
-        _functions[id] = answer
+    function = answer if callable(answer) else None
+    if function is not None:
+        _functions[id] = function
     student = variants.typed(question.exercise)
     whose = {} if student is None else {"student": wire.encode(student)}
-    show(_notice(question, node, answer), {wire.MIME: wire.packet(id, answer=node, **whose)})
+    show(_notice(question, node, function), {wire.MIME: wire.packet(id, answer=node, **whose)})
 
 
 def hint(id: str, level: int = 1) -> None:
@@ -73,31 +74,23 @@ def answer_probes(id: str, arguments: str) -> None:
     for args in json.loads(arguments):
         try:
             answers.append(wire.encode(function(*args)))
-        except Exception as error:
-            answers.append({"error": f"{type(error).__name__}: {error}"[:300]})
+        except (Exception, SystemExit) as error:
+            answers.append({"error": wire.failure(error)})
     show(Notice("", "", ()), {wire.MIME: wire.packet(id, probes=answers)})
 
 
-def _in_order(question: public.PublicQuestion, answer):
-    """An answer keyed by names as a list in the order asked for, for the public checks; anything else as it is."""
-    if isinstance(answer, Mapping):
-        return [answer[name] for name in names_of(question)]
-    if isinstance(answer, (list, tuple)):
-        return [_in_order(question, row) if isinstance(row, Mapping) else row for row in answer]
-    return answer
-
-
-def _notice(question: public.PublicQuestion, node: object, answer) -> Notice:
-    if is_blank(node):
+def _notice(question: public.PublicQuestion, node: object, function: Callable | None) -> Notice:
+    arranged = question.form.arranged(node)
+    if is_blank(arranged):
         return Notice(question.title, "not attempted yet", ())
-    wrong_form = complaint(question, node)
-    if wrong_form:
-        return Notice(question.title, "not in the form asked for", (Line(False, wrong_form),))
-    if blanks(node):
-        return Notice(question.title, "partly attempted", (Line(False, f"{blanks(node)} entries are still ..."),))
-    lines = [Line(True, f"the form is right: {question.expected}")]
-    lines += [run_public_check(question, spec, _in_order(question, answer)) for spec in question.public]
-    if question.kind == "function" and any(line.blank for line in lines):
+    if complaint := question.form.complaint(node):
+        return Notice(question.title, "not in the form asked for", (Line(False, complaint),))
+    if left := blanks(arranged):
+        said = f"{left} {'entry is' if left == 1 else 'entries are'} still ..."
+        return Notice(question.title, "partly attempted", (Line(False, said),))
+    lines = [Line(True, f"the form is right: {question.form.expected}")]
+    lines += [run_public_check(check, question.form, arranged, function) for check in question.public]
+    if any(line.blank for line in lines):
         return Notice(question.title, "not attempted yet", ())
     missed = sum(line.holds is False for line in lines)
     status = "handed in" if not missed else f"handed in, but {missed} of {len(lines)} checks fail"

@@ -1,131 +1,118 @@
 """The public half of every question: what is asked, in which form, with which hints.
 
 The data lie in ``dhkit/questions/<exercise>.toml``, one table per question, and hold no answer. The table
-``[variant]`` is no question: it says which numbers are the student's own (see `dhkit.variants`).
+``[variant]`` is no question: it says which numbers are the student's own (see `dhkit.variants`). A table that does not
+fit is refused with its file, its question and its field.
 """
 
 from __future__ import annotations
 
 import difflib
+import math
 import tomllib
-from dataclasses import dataclass, field
+from collections.abc import Mapping
 from functools import cache
 from importlib import resources
+from typing import Annotated
 
-KINDS = (
-    "number",
-    "expression",
-    "vector",
-    "direction",
-    "matrix",
-    "transform",
-    "dh_table",
-    "joint_solutions",
-    "orientation",
-    "point_cloud",
-    "function",
-    "choice",
-)
+import msgspec
+from msgspec import Meta
+
+from . import forms, public_checks
+from .forms.base import Form, Text
+from .public_checks import PublicCheck
+from .schema import convert, unique
 
 VARIANT = "variant"
 
-DH_COLUMNS = ("sigma", "a", "alpha", "d", "theta")
 
-
-@dataclass(frozen=True)
-class PublicQuestion:
-    """What a student may know of a question.
+class Heading(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What the table of a question says besides the form of the answer.
 
     Attributes
     ----------
-    id : str
-        ``"<exercise>.<name>"``, for example ``"scara.T04"``.
-    kind : str
-        One of `KINDS`.
-    expected : str
-        The awaited form in words, used in messages.
-    shape : tuple of int
-        Shape of an array answer; empty where the kind has none.
-    symbols : tuple of str
-        Names of the symbols the answer may contain; empty for a numeric answer.
-    joints : tuple of str
-        Names and order of the joint variables (kinds ``dh_table`` and ``joint_solutions``).
-    names : tuple of str
-        Names of the entries of a vector or an orientation: the answer may then be a dictionary, too.
-    axes, frames : str
-        Kind ``orientation``: letters of the three axes in the order of the angles, for example ``"zyx"``, and whether
-        they are axes of the ``"moving"`` or of the ``"fixed"`` frame.
-    options : tuple of str
-        Letters of a choice.
-    returns : PublicQuestion or None
-        Form of what a function returns (kind ``function``).
-    public : tuple of dict
-        Checks run in the student's own session.
+    title : str
+        What stands above every message.
     hints : tuple of str
         Hints, from the lightest to the strongest.
     minutes : int
         Expected time, in minutes, for a student who has followed the lecture.
     """
 
+    title: Text
+    hints: tuple[Text, ...] = ()
+    minutes: Annotated[int, Meta(ge=0)] = 0
+
+
+class PublicQuestion(Heading, frozen=True, kw_only=True):
+    """What a student may know of a question.
+
+    Attributes
+    ----------
+    id : str
+        ``"<exercise>.<name>"``, for example ``"scara.T04"``.
+    form : Form
+        The form in which the answer is asked for.
+    public : tuple of PublicCheck
+        Checks run in the student's own session.
+    """
+
     id: str
-    title: str
-    kind: str
-    expected: str
-    units: str = ""
-    shape: tuple[int, ...] = ()
-    symbols: tuple[str, ...] = ()
-    joints: tuple[str, ...] = ()
-    names: tuple[str, ...] = ()
-    axes: str = ""
-    frames: str = "moving"
-    options: tuple[str, ...] = ()
-    returns: PublicQuestion | None = None
-    public: tuple[dict, ...] = field(default=(), repr=False)
-    hints: tuple[str, ...] = field(default=(), repr=False)
-    minutes: int = 0
+    form: Form
+    public: tuple[PublicCheck, ...] = ()
 
     @property
     def exercise(self) -> str:
         return self.id.partition(".")[0]
 
 
-def _question(id: str, table: dict) -> PublicQuestion:
-    """One question from its TOML table; `ValueError` names what is wrong with the table."""
-    table = dict(table)
-    returns = table.pop("returns", None)
-    known = PublicQuestion.__dataclass_fields__.keys() - {"id", "returns"}
-    unknown = table.keys() - known
-    if unknown:
-        raise ValueError(f"question {id}: unknown field {sorted(unknown)}; known: {sorted(known)}")
-    if table.get("kind") not in KINDS:
-        raise ValueError(f"question {id}: kind {table.get('kind')!r} is none of {', '.join(KINDS)}")
-    lists = {key: tuple(value) for key, value in table.items() if isinstance(value, list)}
-    if returns is not None:
-        returns = _question(f"{id}()", {"title": table["title"], "expected": table["expected"], **returns})
-    return PublicQuestion(id=id, returns=returns, **{**table, **lists})
+def from_table(id: str, table: Mapping[str, object]) -> PublicQuestion:
+    """One question from its table; `ValueError` names the field that is wrong."""
+    heading = {key: value for key, value in table.items() if key in Heading.__struct_fields__}
+    about_form = {key: value for key, value in table.items() if key not in heading and key != "public"}
+    form = forms.from_table(about_form)
+    checks = public_checks.from_tables(table.get("public", []), form)
+    return PublicQuestion(id=id, form=form, public=checks, **msgspec.structs.asdict(convert(heading, Heading)))
 
 
 @cache
-def _files() -> dict[str, dict]:
+def _files() -> dict[str, dict[str, object]]:
     """The tables of every exercise, by its name."""
     files = sorted(resources.files("dhkit.questions").iterdir(), key=lambda file: file.name)
-    texts = {
-        file.name.removesuffix(".toml"): file.read_text(encoding="utf-8")
+    return {
+        file.name.removesuffix(".toml"): _tables(file.name, file.read_text(encoding="utf-8"))
         for file in files
         if file.name.endswith(".toml")
     }
-    return {exercise: tomllib.loads(text) for exercise, text in texts.items()}
+
+
+def _tables(file: str, text: str) -> dict[str, object]:
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(f"{file}: {error}") from None
 
 
 @cache
 def questions() -> dict[str, PublicQuestion]:
-    """All questions by id, in the order of their files."""
+    """All questions by id, in the order of their files. `ValueError` names file, question and field that are wrong."""
     return {
-        f"{exercise}.{name}": _question(f"{exercise}.{name}", table)
+        f"{exercise}.{name}": _question(exercise, name, table)
         for exercise, tables in _files().items()
         for name, table in tables.items()
         if name != VARIANT
     }
+
+
+def _question(exercise: str, name: str, table: object) -> PublicQuestion:
+    try:
+        if not name.isidentifier():
+            raise ValueError("a name is made of letters, digits and underscores")
+        if not isinstance(table, dict):
+            raise ValueError(f"a question is a table, [{name}]")
+        return from_table(f"{exercise}.{name}", table)
+    except ValueError as error:
+        raise ValueError(f"{exercise}.toml: question {name}: {error}") from None
 
 
 def variant_ranges(exercise: str) -> dict[str, tuple]:
@@ -133,14 +120,27 @@ def variant_ranges(exercise: str) -> dict[str, tuple]:
 
     Raises ValueError if a range makes no sense; it names the entry.
     """
-    ranges = {name: tuple(value) for name, value in _files().get(exercise, {}).get(VARIANT, {}).items()}
-    for name, range_ in ranges.items():
-        texts = bool(range_) and all(isinstance(value, str) for value in range_)
-        if not texts and not (len(range_) == 3 and range_[0] < range_[1] and range_[2] > 0):
-            raise ValueError(
-                f"{exercise}.toml: {VARIANT}.{name} is neither [lowest, highest, step] nor a list of texts"
-            )
-    return ranges
+    table = _files().get(exercise, {}).get(VARIANT, {})
+    if not isinstance(table, dict):
+        raise ValueError(f"{exercise}.toml: {VARIANT} is no table")
+    return {name: _range(f"{exercise}.toml: {VARIANT}.{name}", value) for name, value in table.items()}
+
+
+def _range(where: str, value: object) -> tuple:
+    if not isinstance(value, list) or not value:
+        raise ValueError(f"{where}: expected [lowest, highest, step] or a list of texts")
+    if all(isinstance(text, str) for text in value):
+        unique(where, value)
+        return tuple(value)
+    if len(value) != 3 or not all(type(number) in (int, float) and math.isfinite(number) for number in value):
+        raise ValueError(f"{where}: expected three numbers [lowest, highest, step] or a list of texts")
+    lowest, highest, step = value
+    if not lowest < highest or not 0 < step <= highest - lowest + 1e-9:
+        raise ValueError(f"{where}: {step} is no step from {lowest} to {highest}")
+    steps = (highest - lowest) / step
+    if abs(steps - round(steps)) > 1e-6:
+        raise ValueError(f"{where}: steps of {step} from {lowest} do not end at {highest}")
+    return tuple(value)
 
 
 def find(id: str) -> PublicQuestion:

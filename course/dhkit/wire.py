@@ -18,17 +18,19 @@ array                   list, tuple, set, NumPy array or SymPy matrix (nested)
 ``{"call": [f, ...]}``  ``add``, ``mul``, ``pow`` or one of `FUNCTIONS`, then its arguments
 ``{"dict": [[k, v]]}``  a dictionary, keys as text
 ``{"function": name}``  something that can be called
+``{"large": words}``    what is beyond the bounds below, described only
 ``{"unknown": type}``   any other object, only its type is told
+``{"error": words}``    a function that was probed raised an exception
 ======================  =====================================================
 
-The grader reads this format with a parser of its own that trusts nothing here.
+The grader reads this format with a parser of its own that trusts nothing here. The bounds are the same for both.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from fractions import Fraction
+import traceback
+from collections.abc import Iterable, Mapping
 from numbers import Integral, Rational, Real
 
 import numpy as np
@@ -37,59 +39,181 @@ import sympy
 MIME = "application/vnd.dhkit.answer+json"
 FORMAT = 1
 
+MAX_NODES = 25_000
+MAX_DEPTH = 60
+MAX_DIGITS = 300
+MAX_TEXT = 1000
+
 FUNCTIONS = ("sin", "cos", "tan", "cot", "sec", "csc", "asin", "acos", "atan", "acot", "atan2",
              "exp", "log", "Abs", "sign", "Max", "Min", "Mod")  # fmt: skip
 
-_MAX_TEXT = 1000
-_MAX_DIGITS = 300
+ARITIES: dict[str, int | None] = {
+    "add": None, "mul": None, "pow": 2, **dict.fromkeys(FUNCTIONS, 1), "atan2": 2, "Mod": 2, "Max": None, "Min": None
+}  # fmt: skip
+"""Number of arguments of everything that can be called; None for one or more."""
+
 _SAFE_INTEGER = 2**53
 _CONSTANTS = {sympy.pi: "pi", sympy.E: "E", sympy.I: "I"}
 
 
-def packet(question: str, **content) -> dict:
+def packet(question: str, **content: object) -> dict[str, object]:
     """The JSON object displayed under `MIME` for one question: ``answer`` or ``probes``, and perhaps the ``student`` typed."""
     return {"format": FORMAT, "question": question, **content}
 
 
-def encode(value) -> object:
-    """The node of any Python object a student may hand in (see the table above)."""
-    if value is None or value is Ellipsis:
-        return {"blank": True}
-    if isinstance(value, (bool, np.bool_)):
-        return bool(value)
-    if isinstance(value, str):
-        return str(value)[:_MAX_TEXT]
-    if isinstance(value, sympy.Basic):
-        return _symbolic(value)
-    if isinstance(value, (sympy.MatrixBase, np.ndarray)):
-        return encode(value.tolist())
-    if isinstance(value, (int, Integral)):
-        return _integer(int(value))
-    if isinstance(value, (Fraction, Rational)):
-        return {"rat": [_integer(value.numerator), _integer(value.denominator)]}
-    if isinstance(value, (float, Real)):
-        return _real(float(value))
-    if isinstance(value, complex):
-        return {"complex": [_real(value.real), _real(value.imag)]}
-    if isinstance(value, Mapping):
-        return {"dict": [[str(key)[:_MAX_TEXT], encode(item)] for key, item in value.items()]}
-    if isinstance(value, (list, tuple, set, frozenset)):
-        return [encode(item) for item in value]
-    if callable(value):
-        return {"function": getattr(value, "__name__", type(value).__name__)[:_MAX_TEXT]}
-    return _unknown(value)
+def encode(value: object) -> object:
+    """The node of any Python object a student may hand in (see the table above). Never raises."""
+    try:
+        return _Encoder().node(value)
+    except _TooLarge as bound:
+        return {"large": f"{_extent(value)}, {bound}"}
 
 
-def _unknown(value) -> dict:
+def failure(error: BaseException) -> str:
+    """An exception in words, short: its type and its message."""
+    return _text("".join(traceback.format_exception_only(error)).strip())[:300]
+
+
+class _TooLarge(Exception):
+    """The answer is beyond a bound; the message says which."""
+
+
+class _Encoder:
+    """Counts nodes and levels of one answer, so that an endless one ends here and not in the grader."""
+
+    def __init__(self) -> None:
+        self.left = MAX_NODES
+
+    def node(self, value: object, depth: int = 0) -> object:
+        self._count(1, depth)
+        try:
+            return self._encoded(value, depth)
+        except _TooLarge:
+            raise
+        except Exception:  # a student's object may raise whatever it is asked
+            return _unknown(value)
+
+    def _encoded(self, value: object, depth: int) -> object:
+        if value is None or value is Ellipsis:
+            return {"blank": True}
+        if isinstance(value, (bool, np.bool_)):
+            return bool(value)
+        if isinstance(value, str):
+            return _text(value)
+        if isinstance(value, sympy.Basic):
+            return self._symbolic(value, depth)
+        if isinstance(value, sympy.MatrixBase):
+            self._expect(value.rows * value.cols)
+            return self._entries(value.tolist(), depth)
+        if isinstance(value, np.ndarray):
+            self._expect(value.size)
+            entries = value.tolist()
+            return self._entries(entries, depth) if value.ndim else self._again(entries, depth)
+        if isinstance(value, Integral):
+            return _integer(int(value))
+        if isinstance(value, Rational):
+            return self._fraction(int(value.numerator), int(value.denominator), depth)
+        if isinstance(value, Real):
+            return _real(float(value))
+        if isinstance(value, (complex, np.complexfloating)):
+            self._count(2, depth + 1)
+            return {"complex": [_real(float(value.real)), _real(float(value.imag))]}
+        if isinstance(value, Mapping):
+            self._expect(len(value))
+            return {"dict": [[_text(str(key)), self.node(item, depth + 1)] for key, item in value.items()]}
+        if isinstance(value, (list, tuple, set, frozenset)):
+            self._expect(len(value))
+            return self._entries(value, depth)
+        if callable(value):
+            return {"function": _text(getattr(value, "__name__", type(value).__name__))}
+        return _unknown(value)
+
+    def _count(self, nodes: int, depth: int) -> None:
+        self.left -= nodes
+        if self.left < 0:
+            raise _TooLarge(f"more than {MAX_NODES} parts")
+        if depth > MAX_DEPTH:
+            raise _TooLarge(f"nested more than {MAX_DEPTH} levels deep")
+
+    def _expect(self, nodes: int) -> None:
+        """Refuse what has more parts than are left before it is copied."""
+        if nodes > self.left:
+            raise _TooLarge(f"more than {MAX_NODES} parts")
+
+    def _again(self, value: object, depth: int) -> object:
+        """Another way to say what was counted already."""
+        self.left += 1
+        return self.node(value, depth)
+
+    def _entries(self, values: Iterable, depth: int) -> list:
+        return [self.node(value, depth + 1) for value in values]
+
+    def _fraction(self, numerator: int, denominator: int, depth: int) -> object:
+        self._count(2, depth + 1)
+        parts = [_integer(numerator), _integer(denominator)]
+        return next((part for part in parts if isinstance(part, dict) and "large" in part), {"rat": parts})
+
+    def _call(self, name: str, value: sympy.Basic, depth: int) -> object:
+        arity = ARITIES[name]
+        if not value.args or (arity is not None and len(value.args) != arity):
+            return _unknown(value)
+        return {"call": [name, *self._entries(value.args, depth)]}
+
+    def _symbolic(self, value: sympy.Basic, depth: int) -> object:
+        if isinstance(value, sympy.MatrixBase):
+            self._expect(value.rows * value.cols)
+            return self._entries(value.tolist(), depth)
+        if isinstance(value, sympy.MatrixExpr):
+            if not all(isinstance(n, (int, sympy.Integer)) for n in value.shape):
+                return _unknown(value)
+            self._expect(int(value.rows * value.cols))
+            explicit = value.as_explicit()
+            return self._again(explicit, depth) if isinstance(explicit, sympy.MatrixBase) else _unknown(value)
+        if isinstance(value, sympy.NDimArray):
+            self._expect(len(value))
+            return self._again(value.tolist(), depth)
+        if isinstance(value, sympy.Integer):
+            return _integer(int(value))
+        if isinstance(value, sympy.Rational):
+            return self._fraction(int(value.p), int(value.q), depth)
+        if isinstance(value, sympy.Float):
+            return _real(float(value))
+        if value in _CONSTANTS:
+            return {"const": _CONSTANTS[value]}
+        if value in (sympy.oo, -sympy.oo, sympy.nan, sympy.zoo):
+            return {"float": {sympy.oo: "inf", -sympy.oo: "-inf"}.get(value, "nan")}
+        if isinstance(value, sympy.Symbol):
+            return {"sym": _text(value.name)}
+        if isinstance(value, sympy.Tuple):
+            return self._entries(value, depth)
+        if isinstance(value, (sympy.Add, sympy.Mul, sympy.Pow)):
+            return self._call(type(value).__name__.lower(), value, depth)
+        if isinstance(value, sympy.exp):
+            return self._call("exp", value, depth)
+        if isinstance(value, (sympy.Function, sympy.Max, sympy.Min)) and type(value).__name__ in FUNCTIONS:
+            return self._call(type(value).__name__, value, depth)
+        if isinstance(value, sympy.UnevaluatedExpr):
+            return self._again(value.args[0], depth)
+        if isinstance(value, sympy.logic.boolalg.BooleanAtom):
+            return bool(value)
+        return _unknown(value)
+
+
+def _unknown(value: object) -> dict:
     kind = type(value)
-    return {"unknown": f"{kind.__module__}.{kind.__qualname__}"[:_MAX_TEXT]}
+    return {"unknown": _text(f"{kind.__module__}.{kind.__qualname__}" if kind.__module__ else kind.__qualname__)}
+
+
+def _text(text: str) -> str:
+    """`text` cut short, and without the half characters that no encoding can carry."""
+    return str(text)[:MAX_TEXT].encode("utf-8", "replace").decode("utf-8")
 
 
 def _integer(value: int) -> object:
     if abs(value) <= _SAFE_INTEGER:
         return value
-    if value.bit_length() > _MAX_DIGITS * 3:
-        return {"unknown": "an integer of more than a few hundred digits"}
+    if value.bit_length() > MAX_DIGITS * 3:
+        return {"large": "an integer of more than a few hundred digits"}
     return {"int": str(value)}
 
 
@@ -97,36 +221,11 @@ def _real(value: float) -> object:
     return value if math.isfinite(value) else {"float": str(value)}
 
 
-def _symbolic(value: sympy.Basic) -> object:
-    if isinstance(value, sympy.MatrixBase):
-        return encode(value.tolist())
-    if isinstance(value, sympy.MatrixExpr):
-        explicit = value.as_explicit() if all(isinstance(n, (int, sympy.Integer)) for n in value.shape) else value
-        return encode(explicit.tolist()) if isinstance(explicit, sympy.MatrixBase) else _unknown(value)
-    if isinstance(value, sympy.NDimArray):
-        return encode(value.tolist())
-    if isinstance(value, sympy.Integer):
-        return _integer(int(value))
-    if isinstance(value, sympy.Rational):
-        return {"rat": [_integer(int(value.p)), _integer(int(value.q))]}
-    if isinstance(value, sympy.Float):
-        return _real(float(value))
-    if value in _CONSTANTS:
-        return {"const": _CONSTANTS[value]}
-    if value in (sympy.oo, -sympy.oo, sympy.nan, sympy.zoo):
-        return {"float": {sympy.oo: "inf", -sympy.oo: "-inf"}.get(value, "nan")}
-    if isinstance(value, sympy.Symbol):
-        return {"sym": value.name[:_MAX_TEXT]}
-    if isinstance(value, sympy.Tuple):
-        return [encode(item) for item in value]
-    if isinstance(value, (sympy.Add, sympy.Mul, sympy.Pow)):
-        return {"call": [type(value).__name__.lower(), *map(encode, value.args)]}
-    if isinstance(value, sympy.exp):
-        return {"call": ["exp", *map(encode, value.args)]}
-    if isinstance(value, (sympy.Function, sympy.Max, sympy.Min)) and type(value).__name__ in FUNCTIONS:
-        return {"call": [type(value).__name__, *map(encode, value.args)]}
-    if isinstance(value, sympy.UnevaluatedExpr):
-        return encode(value.args[0])
-    if isinstance(value, sympy.logic.boolalg.BooleanAtom):
-        return bool(value)
-    return _unknown(value)
+def _extent(value: object) -> str:
+    """How large an object is, in words."""
+    shape = getattr(value, "shape", None)
+    if isinstance(shape, tuple):
+        return f"an array of shape {' x '.join(map(str, shape))}"
+    if isinstance(value, (list, tuple, set, frozenset, Mapping)):
+        return f"a list of {len(value)} entries"
+    return "an expression"

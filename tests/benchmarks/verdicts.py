@@ -46,9 +46,9 @@ def answers(question):
     yield reference
     for node in question.mistakes:
         yield from (mistaken(question, way) for way in node.ways)
-    if question.public.kind not in ("function", "choice"):
+    if question.form.kind not in ("function", "choice"):
         yield from (answer for answer in (perturbed(question, rng) for _ in range(10)) if answer is not None)
-    if question.public.kind == "function":
+    if question.form.kind == "function":
         yield lambda *args: np.array(getattr(found := reference(*args), "solutions", found), dtype=float) * 1.01
 
 
@@ -58,7 +58,7 @@ def measure(question, simplified=3):
     all_evidence = [evidence(question, answer) for answer in collected]
     times.first = timed(lambda: judge(question, all_evidence[-1], STUDENT))
     times.verdicts = [timed(lambda found=found: judge(question, found, STUDENT)) for found in all_evidence]
-    if question.public.symbols:
+    if question.form.symbols:
         reference = sympy.Matrix(entries(right(question)).reshape(-1).tolist())
         for answer in collected[:simplified]:
             difference = sympy.Matrix(entries(answer).reshape(-1).tolist()) - reference

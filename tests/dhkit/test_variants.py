@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from dhkit import public, variants, wire
+from dhkit import variants, wire
 from dhkit.variants import numbers, variant
 
 RANGES = {"L1": (0.4, 0.6, 0.02), "x": (-0.3, 0.3, 0.1), "elbow": ("up", "down")}
@@ -74,10 +74,3 @@ def test_check_tells_the_grader_which_id_was_typed(monkeypatch):
     variant("planar_2r", "ada")
     check.check("planar_2r.centre", "A")
     assert sent[-1]["student"] == "ada"
-
-
-@pytest.mark.parametrize("range_", [[1, 0, 0.1], [0, 1], [0, 1, -1], [], ["a", 1]])
-def test_a_range_that_makes_no_sense_is_named(range_, monkeypatch):
-    monkeypatch.setattr(public, "_files", lambda: {"arm": {"variant": {"L1": range_}}})
-    with pytest.raises(ValueError, match="arm.toml: variant.L1"):
-        public.variant_ranges("arm")

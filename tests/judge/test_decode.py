@@ -18,7 +18,7 @@ t1, t2 = sympy.symbols("t1 t2")
 
 
 def decode(node):
-    return decode_answer(packet("q", answer=node), "q")
+    return decode_answer(packet("q", answer=node), "q").value
 
 
 @pytest.mark.parametrize(

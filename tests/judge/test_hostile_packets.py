@@ -60,7 +60,7 @@ def warm():
 
 def evidence(id, node):
     packet = wire.packet(id, answer=node)
-    if find(id).public.kind != "function":
+    if find(id).form.kind != "function":
         return Evidence(packet)
     probes = find(id).probes(STUDENT, 3)
     return Evidence(wire.packet(id, answer={"function": "f"}), (probes, wire.packet(id, probes=[node] * len(probes))))

@@ -5,12 +5,11 @@ import pytest
 import sympy
 from answers import verdict
 
-from autograder.judge import Evidence, Family, Question, following, is_forgivable, judge, mistake
-from autograder.judge.decode import decode_answer
-from autograder.judge.kinds import KINDS, Setting
+from autograder.judge import Evidence, Family, Question, following, is_forgivable, judge, kinds, mistake
+from autograder.judge.decode import decode
 from autograder.questions import find
 from dhkit import public, variants, wire
-from dhkit.public import PublicQuestion
+from dhkit.public import from_table
 
 t1, t2, L1, L2, a2, a3, d2, t4 = sympy.symbols("t1 t2 L1 L2 a2 a3 d2 t4")
 ADA, BOB = "ada", "bob"
@@ -20,30 +19,31 @@ def length(student):
     return variants.numbers("arm", student)["L1"]
 
 
-FORMS = {
-    "arm.reach": PublicQuestion("arm.reach", "", "number", "one number"),
-    "arm.both": PublicQuestion("arm.both", "", "joint_solutions", "a list of all (t1, t2)", joints=("t1", "t2")),
-    "arm.angles": PublicQuestion(
-        "arm.angles", "", "orientation", "three angles", shape=(3,), axes="zyx", names=("psi", "theta", "phi")
-    ),
-    "arm.fixed": PublicQuestion("arm.fixed", "", "orientation", "three angles", shape=(3,), axes="xyz", frames="fixed"),
-    "arm.free": PublicQuestion("arm.free", "", "direction", "a direction", shape=(2,)),
-    "arm.cloud": PublicQuestion("arm.cloud", "", "point_cloud", "a list of points", shape=(2,)),
-    "arm.half": PublicQuestion(
-        "arm.half",
-        "",
-        "function",
-        "a function",
-        returns=PublicQuestion("arm.half()", "", "vector", "two numbers", shape=(2,)),
-    ),
-    "arm.T": PublicQuestion("arm.T", "", "transform", "a 4x4 matrix", shape=(4, 4)),
+TABLES = {
+    "arm.reach": {"kind": "number", "expected": "one number"},
+    "arm.both": {"kind": "joint_solutions", "expected": "a list of all (t1, t2)", "joints": ["t1", "t2"]},
+    "arm.angles": {
+        "kind": "orientation",
+        "expected": "three angles",
+        "axes": "zyx",
+        "names": ["psi", "theta", "phi"],
+    },
+    "arm.fixed": {"kind": "orientation", "expected": "three angles", "axes": "xyz", "frames": "fixed"},
+    "arm.free": {"kind": "direction", "expected": "a direction", "shape": [2]},
+    "arm.cloud": {"kind": "point_cloud", "expected": "a list of points", "shape": [2]},
+    "arm.half": {
+        "kind": "function",
+        "expected": "a function",
+        "returns": {"kind": "vector", "expected": "two numbers", "shape": [2]},
+    },
+    "arm.T": {"kind": "transform", "expected": "a 4x4 matrix", "shape": [4, 4]},
 }
 
 
 @pytest.fixture(autouse=True)
 def arm(monkeypatch):
     """An exercise of our own: nothing here depends on the questions of the course."""
-    known = {**public.questions(), **FORMS}
+    known = public.questions() | {id: from_table(id, {"title": id, **table}) for id, table in TABLES.items()}
     monkeypatch.setattr(public, "find", lambda id: known[id])
     monkeypatch.setattr(
         variants, "variant_ranges", lambda exercise: {"L1": (0.1, 100.0, 0.1)} if exercise == "arm" else {}
@@ -232,12 +232,9 @@ def test_degrees_are_named_also_where_some_targets_have_no_solution():
 
 @pytest.mark.parametrize("rows", [[[0] * 5] * 4, [[0, 1, 2, 3, 4]] * 4])
 def test_two_tables_without_any_joint_are_compared_cell_by_cell(rows):
-    form = public.find("scara.table")
-    student, other = (
-        KINDS["dh_table"].read(form, decode_answer(wire.packet(form.id, answer=wire.encode(each)), form.id))
-        for each in (rows, [[0, 7, 0, 0, 0]] * 4)
-    )
-    assert not KINDS["dh_table"].compare(form, student, other, Setting(find(form.id).samples)).equal
+    question = find("scara.table")
+    student, other = (kinds.read(question.form, decode(wire.encode(each))) for each in (rows, [[0, 7, 0, 0, 0]] * 4))
+    assert not kinds.compare(question.form, student, other, kinds.Setting(question.samples)).equal
 
 
 # ---------------------------------------------------------------- orientations, directions, clouds, transforms

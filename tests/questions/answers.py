@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from autograder.judge import Evidence, Family, judge
 from dhkit import wire
-from dhkit.public import DH_COLUMNS
+from dhkit.forms.dh_table import DH_COLUMNS
 
 STUDENT = "ada"
 
@@ -25,7 +25,7 @@ def mistaken(question, *ways):
 
 def evidence(question, answer):
     """What the sandbox would find if a student handed in `answer`."""
-    if question.public.kind != "function":
+    if question.form.kind != "function":
         return Evidence(wire.packet(question.id, answer=wire.encode(answer)))
     probes, results = question.probes(STUDENT, 7), []
     for args in probes:
@@ -56,7 +56,7 @@ def keyed(names, row):
 
 def other_forms(question):
     """The reference written in other ways that a student may use: at least five of them for every kind but choices."""
-    answer, kind, form = right(question), question.public.kind, question.public
+    answer, kind, form = right(question), question.form.kind, question.form
     if kind == "choice":
         return {"lower case": answer.lower(), "spaces": f" {answer}\n"}
     if kind == "point_cloud":
@@ -102,7 +102,7 @@ def other_forms(question):
         forms["row"] = sympy.Matrix([entry.tolist()])
     if kind == "dh_table":
         forms["by name"] = [keyed(DH_COLUMNS, row) for row in entry.tolist()]
-    if form.names:
+    if getattr(form, "names", ()):
         forms["by name"] = keyed(form.names, entry.tolist())
     if kind == "direction":
         forms["longer"] = change(lambda e: 7 * e)
@@ -112,7 +112,7 @@ def other_forms(question):
 
 def perturbed(question, rng):
     """The reference with one entry changed by a visible amount; None where nothing has changed."""
-    answer, kind = right(question), question.public.kind
+    answer, kind = right(question), question.form.kind
     if kind == "point_cloud":
         cloud = np.array(answer, dtype=float)
         size, far = np.ptp(cloud, axis=0), 3 * question.tolerance
@@ -124,9 +124,9 @@ def perturbed(question, rng):
             return cloud * (1 + max(0.1, 4 * question.tolerance / size.min()))
         return np.vstack([cloud, cloud[: len(cloud) // 10] + size + far])[-5000:]
     if kind == "joint_solutions":
-        solutions = np.array(answer, dtype=float).reshape(-1, len(question.public.joints))
+        solutions = np.array(answer, dtype=float).reshape(-1, len(question.form.joints))
         if not len(solutions):
-            return rng.uniform(-1, 1, (1, len(question.public.joints)))
+            return rng.uniform(-1, 1, (1, len(question.form.joints)))
         changed = solutions.copy()
         changed[rng.integers(len(solutions)), rng.integers(solutions.shape[1])] += rng.choice([-1, 1]) * rng.uniform(
             0.05, 1
@@ -135,7 +135,7 @@ def perturbed(question, rng):
         return None if family and question.setting(STUDENT).residual(changed).max() < 1e-9 else changed
     form = entries(answer)
     place = rng.integers(form.size)
-    symbols = sympy.symbols(question.public.symbols)
+    symbols = sympy.symbols(question.form.symbols)
     amount = rng.uniform(0.01, 1)
     factor = symbols[rng.integers(len(symbols))] if symbols else 1 + amount
     old = form.reshape(-1)[place] if form.ndim else form.item()
@@ -148,7 +148,7 @@ def perturbed(question, rng):
 
 def still_right(question, reference, changed):
     """Whether a changed entry leaves the meaning as it was, found without the judge's own algebra."""
-    kind, form = question.public.kind, question.public
+    kind, form = question.form.kind, question.form
     values = {name: float(value[0]) for name, value in question.samples.items()}
     if kind in ("direction", "orientation", "dh_table"):
         names = list({*form.symbols, *form.joints})

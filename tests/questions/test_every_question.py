@@ -16,8 +16,8 @@ from autograder.questions import exercises, find
 from dhkit import public, wire
 
 QUESTIONS = [question for questions in exercises().values() for question in questions]
-DATA = [question for question in QUESTIONS if question.public.kind != "function"]
-FUNCTIONS = [question for question in QUESTIONS if question.public.kind == "function"]
+DATA = [question for question in QUESTIONS if question.form.kind != "function"]
+FUNCTIONS = [question for question in QUESTIONS if question.form.kind == "function"]
 ids = lambda questions: [question.id for question in questions]  # noqa: E731
 
 
@@ -118,18 +118,18 @@ def test_a_tree_is_well_formed(question):
     assert all(node.ways for node in question.mistakes)
     assert len(question.mistakes) >= 2, "a response tree knows at least two misconceptions"
     assert question.residual or "joint_solutions" not in (
-        question.public.kind,
-        getattr(question.public.returns, "kind", ""),
+        question.form.kind,
+        getattr(getattr(question.form, "returns", None), "kind", ""),
     )
 
 
 @pytest.mark.parametrize("question", QUESTIONS, ids=ids(QUESTIONS))
 def test_nothing_is_not_an_answer(question):
-    blank = ... if question.public.kind != "function" else lambda *args: None
+    blank = ... if question.form.kind != "function" else lambda *args: None
     assert (verdict(question, blank).note, verdict(question, blank).share) == ("not_attempted", 0.0)
 
 
-@pytest.mark.parametrize("question", [q for q in DATA if q.public.kind != "choice"], ids=lambda q: q.id)
+@pytest.mark.parametrize("question", [q for q in DATA if q.form.kind != "choice"], ids=lambda q: q.id)
 def test_perturbed_answers_are_refused(question):
     rng = np.random.default_rng(11)
     refused = 0
@@ -150,8 +150,8 @@ def test_perturbed_functions_are_refused(question):
     for place in range(len(probes)):
         results = [np.array(each, dtype=float) for each in plain]
         if results[place].size == 0:
-            results[place] = np.full((1, len(question.public.returns.joints)), 0.3)
-        elif question.public.returns.kind == "point_cloud":
+            results[place] = np.full((1, len(question.returns.joints)), 0.3)
+        elif question.returns.kind == "point_cloud":
             results[place] = results[place] * 1.5 + 10 * question.tolerance
         else:
             results[place].flat[rng.integers(results[place].size)] += rng.uniform(0.1, 1)
@@ -162,11 +162,11 @@ def test_perturbed_functions_are_refused(question):
         assert verdict(question, lambda *args: next(answers)).share < 1, probes[place]
 
 
-@pytest.mark.parametrize("question", [q for q in DATA if q.public.kind == "choice"], ids=lambda q: q.id)
+@pytest.mark.parametrize("question", [q for q in DATA if q.form.kind == "choice"], ids=lambda q: q.id)
 def test_other_choices_are_refused(question):
     answer = question.answer(STUDENT)
-    assert answer in question.public.options
-    assert all(verdict(question, letter).share < 0.5 for letter in question.public.options if letter != answer)
+    assert answer in question.form.options
+    assert all(verdict(question, letter).share < 0.5 for letter in question.form.options if letter != answer)
 
 
 @pytest.mark.parametrize("question", FUNCTIONS, ids=ids(FUNCTIONS))

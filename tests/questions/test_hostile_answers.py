@@ -47,21 +47,21 @@ def answer(rng, form):
 def test_every_answer_gets_a_verdict(question):
     rng = random.Random(question.id)
     for _ in range(150):
-        if question.public.kind == "function":
+        if question.form.kind == "function":
             probes = question.probes("ada", rng.randrange(9))
-            results = wire.packet(question.id, probes=[answer(rng, question.public.returns) for _ in probes])
+            results = wire.packet(question.id, probes=[answer(rng, question.returns) for _ in probes])
             evidence = Evidence(wire.packet(question.id, answer={"function": "f"}), (probes, results))
         else:
-            evidence = Evidence(wire.packet(question.id, answer=answer(rng, question.public)))
+            evidence = Evidence(wire.packet(question.id, answer=answer(rng, question.form)))
         found = judge(question, evidence, "ada")
         assert 0 <= found.share <= question.partial, evidence
 
 
 @pytest.mark.parametrize(
-    "question", [q for q in QUESTIONS if q.public.kind == "dh_table"], ids=lambda question: question.id
+    "question", [q for q in QUESTIONS if q.form.kind == "dh_table"], ids=lambda question: question.id
 )
 @pytest.mark.parametrize("entry", ODD, ids=str)
 def test_a_table_of_one_odd_entry_earns_nothing(question, entry):
-    rows, columns = question.public.shape
+    rows, columns = question.form.shape
     found = judge(question, Evidence(wire.packet(question.id, answer=[[entry] * columns] * rows)), "ada")
     assert found.share == 0

@@ -69,7 +69,7 @@ def tables(report: ClassReport) -> dict[str, list[Sequence]]:
         for cluster in question.clusters:
             students = "; ".join(cluster.students)
             answer = cluster.attempts[0].answer
-            text = "" if answer is None else written(answer).replace("\n", " ")
+            text = "" if answer is None else written(answer.value).replace("\n", " ")
             answers.append(
                 (question.question, cluster.size, "answer" if cluster.alike else "words", students, cluster.said, text)
             )

@@ -15,7 +15,7 @@ from nbgrader.api import Gradebook, MissingEntry
 from autograder import questions
 from autograder.judge import Question
 from autograder.judge.clusters import Attempt, Cluster, cluster, is_unexplained, kept, right_answer
-from autograder.judge.decode import Value
+from autograder.judge.decode import Decoded
 from dhkit.public import questions as public_questions
 
 from ..cells import check_cells, check_record, question_id
@@ -93,7 +93,7 @@ class QuestionReport:
         return max((cluster.size for cluster in self.clusters if cluster.alike), default=0)
 
     @property
-    def right(self) -> Value | None:
+    def right(self) -> Decoded | None:
         """The right answer, if some answers are unexplained and it is the same for all of them."""
         answers = {repr(attempt.right): attempt.right for cluster in self.clusters for attempt in cluster.attempts}
         return next(iter(answers.values())) if len(answers) == 1 else None

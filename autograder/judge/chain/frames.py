@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dhkit import wire
+from dhkit.forms.dh_table import DH_COLUMNS
 from dhkit.geometry import modified_dh
-from dhkit.public import DH_COLUMNS
 
-from ..decode import Expression, Number, decode_answer
+from ..decode import Expression, Number, decode
 from ..evaluate import evaluate, symbols
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ class JudgedChain:
         samples = samples or {name: np.array([value], float) for name, value in table.values.items()}
 
         def decoded(value: object) -> list[Expression]:
-            rows: Any = decode_answer(wire.packet("table", answer=wire.encode(value)), "table")
+            rows: Any = decode(wire.encode(value)).value
             return [entry for row in rows for entry in row]
 
         def transform(matrix: object) -> np.ndarray:

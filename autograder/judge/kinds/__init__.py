@@ -1,51 +1,51 @@
-"""The kinds of answer: how each is read from decoded values, and how two answers of a kind compare.
+"""The kinds of answer: how each is held while it is judged, and how two answers of a kind compare.
 
-A kind is two functions (see `base.Kind`); a new one is written in a module of this folder and listed here.
+A kind is there because its module is. Its form is defined in the module of the same name in ``dhkit/forms/``; here
+``vector.py`` holds two functions:
+
+* ``read(form, value)`` makes of decoded values what the kind compares. The answer is known to be in the form asked for,
+  and arranged: ``form.complaint`` had nothing to say.
+* ``compare(form, student, other, setting)`` sets a student's answer against another one, the reference or a mistaken form
+  of it, and returns a `Comparison`. Most kinds are made of entries with values at sample points: see `entries`.
+
+A function is judged by what it returns, in the form of that.
 """
 
-from dhkit.public import PublicQuestion
+from __future__ import annotations
 
-from ..decode import Text
-from .base import Comparison, Kind, Setting, describe, refuse
-from .entries import (
-    Entries,
-    compare_direction,
-    compare_entries,
-    compare_matrix,
-    compare_transform,
-    read_array,
-    read_scalar,
-    read_vector,
-)
-from .orientation import compare_orientation, read_orientation
-from .point_cloud import compare_cloud, read_cloud
-from .solutions import compare_solutions, read_solutions
-from .tables import compare_table, read_table
+from importlib import import_module
+from pkgutil import iter_modules
 
-__all__ = ["KINDS", "Comparison", "Entries", "Kind", "Setting", "describe"]
+from dhkit import forms
+from dhkit.forms import Form
+
+from ..decode import Decoded, Malformed, decode
+from .base import Comparison, Kind, Setting
+from .entries import Entries
+
+__all__ = ["KINDS", "Comparison", "Entries", "Kind", "Setting", "compare", "read"]
 
 
-def _read_choice(question: PublicQuestion, value: object) -> str:
-    letter = value.value.strip().upper() if isinstance(value, Text) else None
-    if letter not in question.options:
-        raise refuse(question, repr(value.value[:20]) if isinstance(value, Text) else describe(value))
-    return letter
+def _kind(name: str) -> Kind:
+    module = import_module(f"{__name__}.{name}")
+    return Kind(module.read, module.compare)
 
 
-def _compare_choice(question: PublicQuestion, student: str, other: str, setting: Setting) -> Comparison:
-    return Comparison(student == other, float(student == other))
-
-
-KINDS = {
-    "number": Kind(read_scalar, compare_entries),
-    "expression": Kind(read_scalar, compare_entries),
-    "vector": Kind(read_vector, compare_entries),
-    "direction": Kind(read_vector, compare_direction),
-    "matrix": Kind(read_array, compare_matrix),
-    "transform": Kind(read_array, compare_transform),
-    "dh_table": Kind(read_table, compare_table),
-    "joint_solutions": Kind(read_solutions, compare_solutions),
-    "orientation": Kind(read_orientation, compare_orientation),
-    "point_cloud": Kind(read_cloud, compare_cloud),
-    "choice": Kind(_read_choice, _compare_choice),
+KINDS: dict[str, Kind] = {
+    module.name: _kind(module.name) for module in iter_modules(__path__) if module.name in forms.KINDS
 }
+
+
+def read(form: Form, answer: Decoded) -> object:
+    """An answer as its kind holds it; `Malformed` where it is not in the form asked for, in the words of `check`."""
+    complaint = form.complaint(answer.node)
+    if complaint:
+        raise Malformed(complaint)
+    arranged = form.arranged(answer.node)
+    value = answer.value if arranged == answer.node else decode(arranged).value
+    return KINDS[form.kind].read(form, value)
+
+
+def compare(form: Form, student: object, other: object, setting: Setting) -> Comparison:
+    """A student's answer beside another one, both as `read` returns them."""
+    return KINDS[form.kind].compare(form, student, other, setting)

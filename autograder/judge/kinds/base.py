@@ -1,16 +1,12 @@
-"""What the kinds of answer share: how two answers compare, what a comparison must know, and words for what was found."""
+"""What the kinds of answer share: how two answers compare, and what a comparison must know."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
-
-from dhkit.forms import array_shape
-from dhkit.public import PublicQuestion
-
-from ..decode import Blank, Failure, Foreign, Function, Malformed, Number, Record, Text
 
 
 @dataclass(frozen=True)
@@ -40,7 +36,7 @@ class Setting:
         Largest difference that still counts as equal, relative to the larger of 1 and the reference's size; metres
         for a point cloud.
     pinned : set of str
-        Freedoms of the DHm convention that a right table may not use (see `chains.same_chain`).
+        Freedoms of the DHm convention that a right table may not use (see `chain.same_chain`).
     turn : float
         A full turn in the unit of the joint angles: 2 pi, or 360 where both answers are in degrees.
     patient : bool
@@ -64,52 +60,7 @@ class Setting:
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of answer.
+    """A kind of answer as the judge sees it: the two functions of its module (see the package's docstring)."""
 
-    ``read`` turns a decoded value into the kind's own form or raises `Malformed` with what was expected and what was
-    found. ``compare`` sets a student's answer against another one, the reference or a mistaken form of it.
-    """
-
-    read: Callable[[PublicQuestion, object], object]
-    compare: Callable[[PublicQuestion, object, object, Setting], Comparison]
-
-
-def describe(value: object) -> str:
-    """A decoded value in words, for messages."""
-    match value:
-        case Text():
-            return "a text"
-        case Function():
-            return "a function"
-        case Record(items):
-            return (
-                f"a dictionary with the keys {', '.join(key[:20] for key, _ in items[:6])}"
-                if items
-                else "an empty dictionary"
-            )
-        case Foreign(type):
-            return f"an object of type {type}"
-        case Failure(message):
-            return f"an error ({message})"
-        case Blank():
-            return "no answer"
-        case Number():
-            return "a number"
-        case tuple():
-            shape = array_shape(value)
-            if shape is None:
-                return "a list whose rows have different lengths"
-            return "an empty list" if shape == (0,) else f"an array of shape {' x '.join(map(str, shape))}"
-    return "an expression"
-
-
-def refuse(question: PublicQuestion, found: str) -> Malformed:
-    return Malformed(f"expected {question.expected}, found {found}")
-
-
-def in_order(value: object, names: Sequence[str]) -> object:
-    """A dictionary with exactly the keys `names` as a tuple in their order; anything else as it is."""
-    if isinstance(value, Record) and names and sorted(key for key, _ in value.items) == sorted(names):
-        found = dict(value.items)
-        return tuple(found[name] for name in names)
-    return value
+    read: Callable[[Any, Any], Any]
+    compare: Callable[[Any, Any, Any, Setting], Comparison]

@@ -1,4 +1,4 @@
-"""Numbers, expressions, vectors, matrices and transforms: entries that are compared by their values at sample points.
+"""Entries of numbers, expressions, vectors, matrices, transforms and tables: compared by their values at sample points.
 
 Two entries count as equal when they agree at every one of N = 12 points that are drawn once per question, angles in
 (-pi, pi] and lengths in (0.2, 1.5) metres unless the question draws otherwise. An answer that is wrong by more than the
@@ -14,14 +14,14 @@ from dataclasses import dataclass, field
 from typing import TypeVar
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from dhkit.forms import array_shape
-from dhkit.geometry import rotation_angle_between, wrap
-from dhkit.public import PublicQuestion
+from dhkit.forms import Form
+from dhkit.geometry import wrap
 
-from ..decode import Blank, Expression
-from ..evaluate import evaluate, evaluate_exactly, size, symbols
-from .base import Comparison, Setting, describe, in_order, refuse
+from ..decode import Blank, Expression, Number, Value
+from ..evaluate import evaluate, evaluate_exactly, size
+from .base import Comparison, Setting
 
 T = TypeVar("T")
 
@@ -59,11 +59,6 @@ class Entries:
 
         return self.once("values", samples, evaluated)
 
-    def finite(self) -> bool:
-        """Whether no filled-in number is nan or infinite; for entries without symbols."""
-        filled = [not isinstance(expression, Blank) for expression in self.expressions]
-        return bool(np.isfinite(self.values({})[:, filled]).all())
-
     def once(self, what: str, samples: Mapping[str, np.ndarray], make: Callable[[], T]) -> T:
         """What `make` returns; made once for the same sample points, as one answer is compared with many."""
         if (kept := self._kept.get(what)) is None or kept[0] is not samples:
@@ -71,42 +66,24 @@ class Entries:
         return kept[1]
 
 
-def checked(question: PublicQuestion, values: tuple) -> Entries:
-    """Every scalar must be a blank or an expression in the symbols that the question allows."""
-    for value in values:
-        if isinstance(value, Blank):
-            continue
-        if not isinstance(value, Expression):
-            raise refuse(question, f"{describe(value)} among the entries")
-        foreign = sorted(symbols(value) - set(question.symbols))
-        if foreign:
-            allowed = ", ".join(question.symbols) or "no symbol (numbers)"
-            raise refuse(question, f"the symbol {foreign[0]} where only {allowed} may appear")
-    return Entries(values)
-
-
-def flat(value: object) -> tuple:
+def flat(value: Value) -> tuple:
+    """The scalars of nested tuples, row after row."""
     return tuple(scalar for item in value for scalar in flat(item)) if isinstance(value, tuple) else (value,)
 
 
-def read_scalar(question: PublicQuestion, value: object) -> Entries:
-    if isinstance(value, tuple):
-        raise refuse(question, describe(value))
-    return checked(question, (value,))
+def read_entries(form: Form, value: Value) -> Entries:
+    return Entries(flat(value))
 
 
-def read_vector(question: PublicQuestion, value: object) -> Entries:
-    (count,) = question.shape
-    value = in_order(value, question.names)
-    if array_shape(value) not in ((count,), (count, 1), (1, count)):
-        raise refuse(question, describe(value))
-    return checked(question, flat(value))
+def real_values(value: Value) -> np.ndarray:
+    """The values (m,) of m constant expressions that are known to be real."""
+    return np.array([_constant(expression) for expression in flat(value)], dtype=float)
 
 
-def read_array(question: PublicQuestion, value: object) -> Entries:
-    if array_shape(value) != question.shape:
-        raise refuse(question, describe(value))
-    return checked(question, flat(value))
+def _constant(expression: Expression) -> float:
+    if isinstance(expression, Number) and isinstance(expression.value, float):
+        return expression.value
+    return float(evaluate(expression, {})[0].real)
 
 
 def agreement(student: Entries, other: Entries, setting: Setting, angles: Sequence[bool] | np.ndarray) -> np.ndarray:
@@ -121,24 +98,25 @@ def agreement(student: Entries, other: Entries, setting: Setting, angles: Sequen
     if student.expressions and other.expressions:
         left = MAX_EXACT_NODES
         for i in np.flatnonzero(doubtful):
-            left -= size(student.expressions[i])
+            theirs_exactly, ours_exactly = student.expressions[i], other.expressions[i]
+            if isinstance(theirs_exactly, Blank) or isinstance(ours_exactly, Blank):
+                continue
+            left -= size(theirs_exactly)
             if left < 0:
                 break
-            agree[i] = _agree_exactly(student.expressions[i], other.expressions[i], setting, angles[i])
+            agree[i] = _agree_exactly(theirs_exactly, ours_exactly, setting, angles[i])
     return agree
 
 
-def difference(a: np.ndarray, b: np.ndarray, angles: np.ndarray) -> np.ndarray:
+def difference(a: ArrayLike, b: ArrayLike, angles: ArrayLike) -> np.ndarray:
     """a - b, the real part of angles in (-pi, pi]."""
-    found = a - b
+    found = np.subtract(a, b)
     if not np.any(angles):
         return found
     return np.where(angles, wrap(found.real) + 1j * found.imag, found)
 
 
-def _agree_exactly(student: Expression | Blank, other: Expression, setting: Setting, angle: bool) -> bool:
-    if isinstance(student, Blank):
-        return False
+def _agree_exactly(student: Expression, other: Expression, setting: Setting, angle: bool) -> bool:
     draws = list(zip(*setting.samples.values(), strict=True)) or [()]
     for values in draws:
         point = dict(zip(setting.samples, values, strict=True))
@@ -147,72 +125,23 @@ def _agree_exactly(student: Expression | Blank, other: Expression, setting: Sett
             return False
         with np.errstate(all="ignore"):
             # np.abs, as the abs of a huge complex number overflows.
-            gap = np.abs(difference(np.complex128(complex(theirs - ours)), np.complex128(0), np.bool_(angle)))
+            gap = np.abs(difference(np.complex128(complex(theirs - ours)), np.complex128(0), angle))
         if not gap <= setting.tolerance * max(1, abs(complex(ours))):
             return False
     return True
 
 
-def compare_entries(question: PublicQuestion, student: Entries, other: Entries, setting: Setting) -> Comparison:
-    """A number, an expression or a vector, entry by entry."""
+def compare_entries(names: Sequence[str], student: Entries, other: Entries, setting: Setting) -> Comparison:
+    """A number, an expression or a vector, entry by entry; `names` of its entries where they have some."""
     count = len(student.expressions)
     agree = agreement(student, other, setting, [i in setting.angles for i in range(count)])
-    remarks = tuple(f"{_name(question, i)} differs" for i in np.flatnonzero(~agree)) if count > 1 else ()
+    differ = (names[i] if names else f"entry {i + 1}" for i in np.flatnonzero(~agree).tolist())
+    remarks = tuple(f"{name} differs" for name in differ) if count > 1 else ()
     return Comparison(bool(agree.all()), float(agree.mean()), remarks)
 
 
-def _name(question: PublicQuestion, index: int) -> str:
-    return f"{question.names[index]}" if question.names else f"entry {index + 1}"
-
-
-def compare_direction(question: PublicQuestion, student: Entries, other: Entries, setting: Setting) -> Comparison:
-    """Vectors that count as equal when they are parallel: lengths and senses are free."""
-    theirs, ours = (_unit(entries.values(setting.samples)) for entries in (student, other))
-    aligned = np.abs((theirs * ours.conj()).sum(axis=1))
-    if np.isfinite(aligned).all() and (aligned > 1 - setting.tolerance).all():
-        return Comparison(True, 1.0)
-    if not np.isfinite(aligned).all():
-        return Comparison(False, 0.0, ("a direction cannot be all zeros or undefined",))
-    worst = np.degrees(np.arccos(np.clip(aligned.min(), 0, 1)))
-    return Comparison(False, 0.0, (f"the direction is off by {worst:.3g} deg",))
-
-
-def _unit(vectors: np.ndarray) -> np.ndarray:
-    with np.errstate(all="ignore"):
-        return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
-
-
-def compare_matrix(question: PublicQuestion, student: Entries, other: Entries, setting: Setting) -> Comparison:
-    """A matrix cell by cell."""
-    agree = agreement(student, other, setting, np.zeros(len(student.expressions))).reshape(question.shape)
-    return Comparison(bool(agree.all()), float(agree.mean()), _cells(agree))
-
-
-def compare_transform(question: PublicQuestion, student: Entries, other: Entries, setting: Setting) -> Comparison:
-    """A transform block by block: half the share for the rotation, half for the position; errors in degrees and metres."""
-    agree = agreement(student, other, setting, np.zeros(len(student.expressions))).reshape(question.shape)
-    blocks = agree[:-1, :-1].all(), agree[:-1, -1].all()
-    share = (sum(map(float, blocks)) / 2) if agree[-1].all() else 0.25 * sum(map(float, blocks))
-    if agree.all():
-        return Comparison(True, 1.0)
-    where = " at the values tried" if question.symbols else ""
-    theirs, ours = (entries.values(setting.samples).reshape(-1, *question.shape) for entries in (student, other))
-    remarks = list(_cells(agree))
-    if not blocks[0]:
-        remarks.append(_rotation_error(theirs[:, :-1, :-1], ours[:, :-1, :-1], where))
-    if not blocks[1]:
-        with np.errstate(all="ignore"):
-            miss = np.linalg.norm(theirs[:, :-1, -1] - ours[:, :-1, -1], axis=1).max()
-        remarks.append(
-            f"the position is off by up to {miss:.3g} m{where}" if np.isfinite(miss) else "the position is not defined"
-        )
-    remarks += [f"the {name} is right" for name, right in zip(("rotation", "position"), blocks, strict=True) if right]
-    if not agree[-1].all():
-        remarks.append("the last row of a transform is 0 ... 0 1")
-    return Comparison(False, share, tuple(remarks))
-
-
-def _cells(agree: np.ndarray) -> tuple[str, ...]:
+def differing_cells(agree: np.ndarray) -> tuple[str, ...]:
+    """Which cells of a matrix do not agree, in words."""
     wrong = [f"({', '.join(map(str, place + 1))})" for place in np.argwhere(~agree)]
     if not wrong:
         return ()
@@ -220,13 +149,3 @@ def _cells(agree: np.ndarray) -> tuple[str, ...]:
     return (
         f"cell {wrong[0]} differs" if len(wrong) == 1 else f"{len(wrong)} cells differ: {', '.join(wrong[:6])}{more}",
     )
-
-
-def _rotation_error(theirs: np.ndarray, ours: np.ndarray, where: str) -> str:
-    with np.errstate(all="ignore"):
-        skew = np.abs(np.swapaxes(theirs, 1, 2) @ theirs - np.eye(theirs.shape[-1])).max()
-        angle = rotation_angle_between(theirs.real, ours.real).max()
-        rigid = skew < 1e-4 and (np.linalg.det(theirs).real > 0).all()
-    if not rigid:
-        return "its rotation block is no rotation: columns of length 1, orthogonal, right-handed"
-    return f"the rotation is off by up to {np.degrees(angle):.3g} deg{where}"

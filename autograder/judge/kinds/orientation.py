@@ -5,22 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from autograder.reference.orientation import euler_matrix
-from dhkit.forms import array_shape
+from dhkit.forms.orientation import Orientation
 from dhkit.geometry import rotation_angle_between
-from dhkit.public import PublicQuestion
 
-from .base import Comparison, Setting, describe, in_order, refuse
-from .entries import Entries, checked, flat
+from .base import Comparison, Setting
+from .entries import Entries
+from .entries import read_entries as read
 
-
-def read_orientation(question: PublicQuestion, value: object) -> Entries:
-    value = in_order(value, question.names)
-    if array_shape(value) not in ((3,), (3, 1), (1, 3)):
-        raise refuse(question, describe(value))
-    return checked(question, flat(value))
+__all__ = ["compare", "read"]
 
 
-def compare_orientation(question: PublicQuestion, student: Entries, other: Entries, setting: Setting) -> Comparison:
+def compare(form: Orientation, student: Entries, other: Entries, setting: Setting) -> Comparison:
     """Compared in SO(3): both triples of a rotation are right, and at gimbal lock every one of the family is.
 
     The tolerance is in radians.
@@ -30,11 +25,10 @@ def compare_orientation(question: PublicQuestion, student: Entries, other: Entri
         return Comparison(False, 0.0, ("the angles are not real numbers everywhere",))
     unit = 2 * np.pi / setting.turn
     rotations = [
-        euler_matrix(values.real * unit, question.axes, intrinsic=question.frames != "fixed")
-        for values in (theirs, ours)
+        euler_matrix(values.real * unit, form.axes, intrinsic=form.frames != "fixed") for values in (theirs, ours)
     ]
     error = float(np.max(rotation_angle_between(*rotations)))
     if error <= max(setting.tolerance, 1e-7):
         return Comparison(True, 1.0)
-    where = " at the values tried" if question.symbols else ""
+    where = " at the values tried" if form.symbols else ""
     return Comparison(False, 0.0, (f"the rotation is off by up to {np.degrees(error):.3g} deg{where}",))

@@ -13,9 +13,9 @@ import pytest
 import sympy
 
 from autograder.judge.chain import SAME_MODEL, Freedom, JudgedChain, NotAChain, same_chain
-from autograder.judge.decode import Call, Number, Symbol, decode_answer
+from autograder.judge.decode import Call, Number, Symbol, decode
 from autograder.reference import robots
-from dhkit.wire import encode, packet
+from dhkit.wire import encode
 
 PI = np.pi
 PRICES = {"base frame": 2.5, "tool frame": 2.5, "zero of joint": 2, "sense of joint": 2}
@@ -577,7 +577,7 @@ RX90 = [
 
 
 def decoded(rows):
-    return sum(decode_answer(packet("q", answer=encode(rows)), "q"), ())
+    return sum(decode(encode(rows)).value, ())
 
 
 def read(rows, joints, lengths=LENGTHS):

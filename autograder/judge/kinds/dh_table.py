@@ -4,31 +4,24 @@ from __future__ import annotations
 
 import numpy as np
 
-from dhkit.forms import array_shape
-from dhkit.public import DH_COLUMNS, PublicQuestion
+from dhkit.forms.dh_table import DH_COLUMNS, DHTable
 
 from ..chain import SAME_MODEL, JudgedChain, NotAChain, same_chain
-from .base import Comparison, Setting, describe, in_order, refuse
-from .entries import Entries, agreement, checked, flat
+from .base import Comparison, Setting
+from .entries import Entries, agreement
+from .entries import read_entries as read
+
+__all__ = ["compare", "read"]
 
 WIDTH = len(DH_COLUMNS)
 
 
-def read_table(question: PublicQuestion, value: object) -> Entries:
-    """Rows as lists in the order of the columns, or as dictionaries keyed by their names."""
-    if isinstance(value, tuple):
-        value = tuple(in_order(row, DH_COLUMNS) for row in value)
-    if array_shape(value) != question.shape:
-        raise refuse(question, describe(value))
-    return checked(question, flat(value))
-
-
-def compare_table(question: PublicQuestion, student: Entries, other: Entries, setting: Setting) -> Comparison:
+def compare(form: DHTable, student: Entries, other: Entries, setting: Setting) -> Comparison:
     """Two tables are equal when they describe the same chain without using a freedom that the question pins."""
     cells = _compare_cells(student, other, setting)
     if cells.equal:
         return cells
-    mine, theirs = (_chain(entries, question, setting) for entries in (student, other))
+    mine, theirs = (_chain(entries, form, setting) for entries in (student, other))
     if mine is None or theirs is None or (not setting.patient and _ends_apart(mine, theirs, setting)):
         return cells
     match = same_chain(mine, theirs, pinned=setting.pinned)
@@ -41,10 +34,10 @@ def compare_table(question: PublicQuestion, student: Entries, other: Entries, se
     return Comparison(False, 1.0, match.remarks, "same_chain_other_frames")
 
 
-def _chain(entries: Entries, question: PublicQuestion, setting: Setting) -> JudgedChain | None:
+def _chain(entries: Entries, form: DHTable, setting: Setting) -> JudgedChain | None:
     def read() -> JudgedChain | None:
         try:
-            chain = JudgedChain.of_entries(entries.expressions, question.joints, setting.samples)
+            chain = JudgedChain.of_entries(entries.expressions, form.joints, setting.samples)
         except NotAChain:
             return None
         return chain if chain.joints else None

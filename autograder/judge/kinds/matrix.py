@@ -1,0 +1,19 @@
+"""Matrices."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dhkit.forms.matrix import Matrix
+
+from .base import Comparison, Setting
+from .entries import Entries, agreement, differing_cells
+from .entries import read_entries as read
+
+__all__ = ["compare", "read"]
+
+
+def compare(form: Matrix, student: Entries, other: Entries, setting: Setting) -> Comparison:
+    """Cell by cell."""
+    agree = agreement(student, other, setting, np.zeros(len(student.expressions))).reshape(form.shape)
+    return Comparison(bool(agree.all()), float(agree.mean()), differing_cells(agree))

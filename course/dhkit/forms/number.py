@@ -1,0 +1,13 @@
+"""One number."""
+
+from __future__ import annotations
+
+from .. import nodes
+from .base import Fields
+
+
+class Number(Fields, frozen=True, kw_only=True):
+    """One number, or an expression without symbols such as ``sqrt(2)/2``."""
+
+    def misfit(self, node: object) -> str | None:
+        return nodes.describe(node) if isinstance(node, list) else nodes.alien(node, ())
