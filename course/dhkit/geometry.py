@@ -40,6 +40,8 @@ _NEXT, _LAST = [1, 2, 0], [2, 0, 1]
 def wrap(angle: ArrayLike, rounding: float = 6e-13) -> np.ndarray:
     """The same angle in (-pi, pi]; -pi and its rounding neighbours become pi.
 
+    Of a huge number float64 knows no angle: its exact remainder is as good as any, and not zero.
+
     Parameters
     ----------
     angle : array_like, shape (...), in radians
@@ -52,7 +54,8 @@ def wrap(angle: ArrayLike, rounding: float = 6e-13) -> np.ndarray:
     """
     angle = np.asarray(angle)
     turns = np.ceil((angle - np.pi - rounding) * (0.5 / np.pi))
-    return np.minimum(angle - turns * (2 * np.pi), np.pi)
+    near = np.minimum(angle - turns * (2 * np.pi), np.pi)
+    return np.where(np.abs(turns) < 1e9, near, np.pi - np.remainder(np.pi - angle, 2 * np.pi))[()]
 
 
 def phasor(angle: ArrayLike) -> np.ndarray:

@@ -42,6 +42,10 @@ def test_wrap_is_half_open(angle, expected):
     assert wrap(angle) == pytest.approx(expected, abs=1e-12)
 
 
+def test_wrap_does_not_take_a_huge_number_for_zero():
+    assert (np.abs(wrap([1e17, 1e300, 1e308, -1e308])) > 1e-3).all()
+
+
 def test_wrap_agrees_with_the_angle_of_the_complex_number_and_takes_any_shape():
     angles = RNG.uniform(-50, 50, (4, 5))
     assert np.allclose(wrap(angles), np.angle(np.exp(1j * angles)))
