@@ -21,7 +21,6 @@ import sympy as sp
 from numpy.typing import ArrayLike
 
 from .elbow import ElbowArm, WristAlone, WristedArm
-from .elementary import Entry, rot_y, rot_z, trans_x, trans_z
 from .inverse import TOLERANCE, InverseModel
 from .parallel import ThreeRPR, ThreeRRR
 from .pen import PenArm
@@ -29,6 +28,7 @@ from .planar_arms import PlanarArm, Scara
 from .singularities import jacobian, mobility
 from .solutions import Batch, Nearest, Solutions
 from .tables import DHTable
+from .transforms import Entry, rot_y, rot_z, trans_x, trans_z
 from .urdf import UrdfJoint
 
 _t1, _t2, _t3, _t4, _t5, _t6 = sp.symbols("t1:7")

@@ -11,13 +11,24 @@ from collections.abc import Sequence
 
 import sympy as sp
 
-from .elementary import Entry, rot_x, rot_z
+from .transforms import Entry, rot_x, rot_z
 
 
 def rotation_about(turn: sp.Matrix, centre: Sequence[Entry]) -> sp.Matrix:
     """A rotation about a centre instead of the origin: [R, p - R p; 0, 1].
 
-    turn: 3x3 rotation with centre (3,), or 2x2 with centre (2,); metres. Returns 4x4 or 3x3.
+    Parameters
+    ----------
+    turn : 3x3 or 2x2 matrix
+        A rotation.
+    centre : three or two entries
+        Metres.
+
+    Returns
+    -------
+    4x4 or 3x3 matrix
+
+    Source: turns about centres, EPFL slides.
     """
     size = turn.rows
     centre = sp.Matrix(centre)
@@ -25,9 +36,16 @@ def rotation_about(turn: sp.Matrix, centre: Sequence[Entry]) -> sp.Matrix:
 
 
 def scara_centres(joints: Sequence[Entry], lengths: Sequence[Entry]) -> list[sp.Matrix]:
-    """The planar 3x3 rotations of the SCARA: joints (t1, t2, t4), lengths (L1, L2).
+    """The planar 3x3 rotations of the SCARA; their product times [L1 + L2 + L4, 0, 1] is the tool point.
 
-    Their product times [L1 + L2 + L4, 0, 1] is the tool point.
+    Parameters
+    ----------
+    joints : (t1, t2, t4)
+        Radians.
+    lengths : (L1, L2)
+        Metres.
+
+    Source: SCARA of the EPFL slides.
     """
     (l1, l2), reached, matrices = lengths, sp.S.Zero, []
     for joint, length in zip(joints, (l1, l2, 0)):

@@ -19,7 +19,6 @@ from numpy.typing import ArrayLike
 from dhkit.geometry import phasor, two_link
 
 from .inverse import Branches, InverseModel, JointMap, translations
-from .limits import outside_limits
 from .shoulder import Shoulder, shoulder
 from .status import Failure, Flag, two_link_flags
 from .tables import DHTable
@@ -103,16 +102,23 @@ class ArmGeometry:
     def in_plane(self, point: np.ndarray, anchor: ArrayLike, tol: float) -> tuple[Shoulder, np.ndarray]:
         """Shoulder branches and the tip in the arm's plane, complex, (2, N).
 
-        point: (3, N), metres, in frame 1 at theta_1 = 0. anchor: theta_1 where it is free.
+        Parameters
+        ----------
+        point : (3, N) array
+            Metres, in frame 1 at theta_1 = 0.
+        anchor : array_like
+            theta_1 where it is free, radians.
+        tol : float
+            As for `shoulder`.
         """
         branches = shoulder(point[0] + 1j * point[1], self.offset, self.size, anchor, tol)
         tip = (branches.radius - self.out) + 1j * (self.side * point[2])
         return branches, tip
 
     def postures(self, point: np.ndarray, anchors: Sequence[ArrayLike], tol: float) -> Postures:
-        """All postures that bring the tip to a point (3, N); arguments as for in_plane.
+        """All postures that bring the tip to a point; parameters as for `in_plane`.
 
-        anchors: theta_1 and theta_2 where they are free.
+        anchors : theta_1 and theta_2 where they are free, radians.
         """
         branches, tip = self.in_plane(point, anchors[0], tol)
         upper_phase = np.angle(self.upper)
@@ -221,8 +227,6 @@ class ElbowArm(InverseModel):
         return self.arm.label(branch, flags)
 
     def unreachable(self, failure: Failure, excess: float) -> str:
-        if failure == Failure.LIMITED:
-            return outside_limits(excess)
         return self.arm.unreachable("point", failure, excess)
 
 
@@ -402,8 +406,6 @@ class WristedArm(InverseModel):
         return f"{self.arm.label(branch // 2, flags)}, {self.wrist.label(branch % 2, flags)}"
 
     def unreachable(self, failure: Failure, excess: float) -> str:
-        if failure == Failure.LIMITED:
-            return outside_limits(excess)
         return self.arm.unreachable("wrist centre", failure, excess)
 
 
@@ -444,6 +446,4 @@ class WristAlone(InverseModel):
         return self.wrist.label(branch, flags)
 
     def unreachable(self, failure: Failure, excess: float) -> str:
-        if failure == Failure.LIMITED:
-            return outside_limits(excess)
         return f"the wrist centre is {excess:.3g} m away from where the three axes meet"

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from dhkit.geometry import modified_dh_of_cosines
 
-from .elementary import rot_x, trans_x
+from .transforms import rot_x, trans_x
 
 if TYPE_CHECKING:
     from .tables import DHRow
@@ -116,10 +116,21 @@ class Chain:
         return result @ self.tool
 
     def forward(self, q: ArrayLike) -> np.ndarray:
-        """Poses of the tool for joint values q.
+        """Poses of the tool for joint values.
 
-        q: shape (..., n), radians (revolute) or metres (prismatic). Returns (..., 4, 4).
-        Raises ValueError when the last axis of q is not n or a value is not finite.
+        Parameters
+        ----------
+        q : array_like, shape (..., n)
+            Radians (revolute) or metres (prismatic).
+
+        Returns
+        -------
+        array, shape (..., 4, 4)
+
+        Raises
+        ------
+        ValueError
+            When the last axis of q is not n or a value is not finite.
         """
         q = self._checked(q)
         columns = q.reshape(-1, self.joints)

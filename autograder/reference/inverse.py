@@ -119,7 +119,13 @@ class InverseModel(ABC):
 
     @abstractmethod
     def unreachable(self, failure: Failure, excess: float) -> str:
-        """Why a pose is out of reach, in words."""
+        """Why no posture reaches a pose, in words; joint limits are not asked about."""
+
+    def reason(self, failure: Failure, excess: float) -> str:
+        """Why a pose has no posture, in words: out of reach by `excess` metres or radians, or outside the limits."""
+        if failure == Failure.LIMITED:
+            return f"every posture is outside the joint limits, the best one by {excess:.3g} (rad or m)"
+        return self.unreachable(failure, excess)
 
     def pose(self, task: np.ndarray) -> np.ndarray:
         """Poses (N, 4, 4) from task coordinates (N, m), for robots that have them. Raises ValueError for others."""

@@ -54,11 +54,6 @@ def within_limits(batch: Batch) -> Batch:
     )
 
 
-def outside_limits(excess: float) -> str:
-    """Reason in words when only joint limits stand in the way."""
-    return f"every posture is outside the joint limits, the best one by {excess:.3g} (rad or m)"
-
-
 def _periods(model: InverseModel, lower: np.ndarray, upper: np.ndarray) -> np.ndarray:
     """Multiples of 2 pi to add to the joints, (number, n), so that every posture within the limits is met."""
     turns = [range(1)] * model.joints

@@ -76,10 +76,17 @@ class ThreeRPR:
     def polynomial(self, lengths: ArrayLike) -> np.ndarray:
         """Degree-6 polynomial in t = tan(phi / 2) whose real roots carry the assembly modes.
 
-        lengths: shape (..., 3). Returns (..., 7), highest power first. Leg 1
-        subtracted from legs 2 and 3 gives two equations linear in (x, y);
+        Leg 1 subtracted from legs 2 and 3 gives two equations linear in (x, y);
         eliminating them from leg 1 gives a trigonometric polynomial of degree 3
         in phi. phi = pi is a root when the first coefficient vanishes.
+
+        Parameters
+        ----------
+        lengths : array_like, shape (..., 3), metres
+
+        Returns
+        -------
+        array, shape (..., 7), highest power first
         """
         checked = _lengths(lengths)
         return self._polynomial(checked, np.zeros(checked.shape[:-1]))

@@ -14,7 +14,6 @@ from dhkit.geometry import wrap
 
 from .elbow import ArmGeometry
 from .inverse import Branches, InverseModel, translations
-from .limits import outside_limits
 from .status import Failure, Flag
 from .tables import DHTable
 
@@ -86,8 +85,6 @@ class PenArm(InverseModel):
         return "tip behind" if branch else "tip in front"
 
     def unreachable(self, failure: Failure, excess: float) -> str:
-        if failure == Failure.LIMITED:
-            return outside_limits(excess)
         if failure == Failure.INSIDE:
             return self.arm.unreachable("tip", failure, excess)
         return f"the point is {excess:.3g} m off the surface that the pen tip can reach"

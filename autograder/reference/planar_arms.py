@@ -11,7 +11,6 @@ import numpy as np
 from dhkit.geometry import SAME_LENGTH, phasor, rotation, two_link, wrap
 
 from .inverse import Branches, InverseModel, JointMap, translations
-from .limits import outside_limits
 from .status import Failure, Flag, two_link_flags
 from .tables import DHTable
 
@@ -255,6 +254,5 @@ def _out_of_plane_reach(point: str, reach: tuple[float, float], failure: Failure
         Failure.SHORT: f"the {point} is {excess:.3g} m inside the inner limit {least:.3g} m",
         Failure.TILTED: f"the pose is tilted by {excess:.3g} rad, which parallel axes cannot do",
         Failure.OFF: f"the pose is {excess:.3g} m out of the arm's plane",
-        Failure.LIMITED: outside_limits(excess),
     }
     return texts[failure]

@@ -18,8 +18,17 @@ from .tables import DHTable
 def jacobian(table: DHTable, q: ArrayLike) -> np.ndarray:
     """Geometric Jacobian of the tool point in the base's axes.
 
-    q: (..., n), radians or metres. Returns (..., 6, n): rows 0 to 2 the velocity of the tool
-    point (m/s), rows 3 to 5 the angular velocity (rad/s), per unit of each joint's speed.
+    Parameters
+    ----------
+    table : DHTable
+    q : array_like, shape (..., n)
+        Radians or metres.
+
+    Returns
+    -------
+    array, shape (..., 6, n)
+        Rows 0 to 2 the velocity of the tool point (m/s), rows 3 to 5 the angular velocity (rad/s), per unit of each
+        joint's speed.
 
     Source: D. Whitney, "Resolved motion rate control of manipulators and human prostheses", 1969,
     doi:10.1109/TMMS.1969.299896.
@@ -34,9 +43,19 @@ def jacobian(table: DHTable, q: ArrayLike) -> np.ndarray:
 
 
 def rank(table: DHTable, q: ArrayLike, tol: float = 1e-9) -> np.ndarray:
-    """Rank of the Jacobian at q (..., n): the freedoms that are left there, shape (...).
+    """Rank of the Jacobian: the freedoms that are left at joint values.
 
-    tol: smallest singular value that counts, relative to the largest.
+    Parameters
+    ----------
+    table : DHTable
+    q : array_like, shape (..., n)
+        Radians or metres.
+    tol : float
+        Smallest singular value that counts, relative to the largest.
+
+    Returns
+    -------
+    int array, shape (...)
     """
     values = np.linalg.svd(jacobian(table, q), compute_uv=False)
     return (values > tol * values[..., :1]).sum(axis=-1)

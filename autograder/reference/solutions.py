@@ -123,7 +123,7 @@ class Batch:
         excess = float(self.excess[index]) if status == Status.UNREACHABLE else 0.0
         match status:
             case Status.UNREACHABLE:
-                reason = self.model.unreachable(Failure(int(self.failure[index])), excess)
+                reason = self.model.reason(Failure(int(self.failure[index])), excess)
             case Status.INFINITE:
                 reason = f"a whole family of postures reaches the pose: {free}"
             case Status.BOUNDARY:

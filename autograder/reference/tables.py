@@ -19,7 +19,7 @@ import sympy as sp
 from numpy.typing import ArrayLike
 
 from . import forward as _forward
-from .elementary import (
+from .transforms import (
     exact_angle,
     modified_dh,
     modified_dh_inverse,

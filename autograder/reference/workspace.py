@@ -27,12 +27,12 @@ class HasForward(Protocol):
         ...
 
 
-Robot: TypeAlias = HasForward | Callable[[np.ndarray], np.ndarray]
+ForwardModel: TypeAlias = HasForward | Callable[[np.ndarray], np.ndarray]
 
 _BLOCK = 1 << 15  # joint vectors at a time: bounds the memory, keeps the work in the cache
 
 
-def grid(robot: Robot, limits: ArrayLike, counts: ArrayLike) -> np.ndarray:
+def grid(robot: ForwardModel, limits: ArrayLike, counts: ArrayLike) -> np.ndarray:
     """Image of a regular grid of joint values, both limits included.
 
     Parameters
@@ -59,10 +59,19 @@ def grid(robot: Robot, limits: ArrayLike, counts: ArrayLike) -> np.ndarray:
     return _in_blocks(robot, joints, int(np.prod(shape))).reshape((*shape, -1))
 
 
-def sample(robot: Robot, limits: ArrayLike, count: int, rng: np.random.Generator) -> np.ndarray:
+def sample(robot: ForwardModel, limits: ArrayLike, count: int, rng: np.random.Generator) -> np.ndarray:
     """Points of `count` joint vectors drawn uniformly between the limits.
 
-    rng : numpy.random.Generator. Returns (count, 2 or 3).
+    Parameters
+    ----------
+    robot : object with ``forward``, or the function
+    limits : array_like, shape (n, 2)
+    count : int
+    rng : numpy.random.Generator
+
+    Returns
+    -------
+    array, shape (count, 2 or 3), metres
     """
     low, high = _limits(limits).T
 
@@ -75,8 +84,17 @@ def sample(robot: Robot, limits: ArrayLike, count: int, rng: np.random.Generator
 def planar_points(lengths: ArrayLike, q: ArrayLike) -> np.ndarray:
     """End point of a planar arm with n parallel revolute joints.
 
-    lengths: shape (n,); q: shape (..., n), each angle from the link before.
-    Returns (..., 2). It costs its 2n cosines and sines per point and little else.
+    It costs its 2n cosines and sines per point and little else.
+
+    Parameters
+    ----------
+    lengths : array_like, shape (n,), metres
+    q : array_like, shape (..., n), radians
+        Each angle from the link before.
+
+    Returns
+    -------
+    array, shape (..., 2), metres
     """
     lengths, q = np.asarray(lengths, float), np.asarray(q, float)
     if q.shape[-1:] != lengths.shape:
@@ -105,11 +123,22 @@ def rr_grid(l1: float, l2: float, q1: ArrayLike, q2: ArrayLike) -> np.ndarray:
     return np.multiply.outer(phasor, arm).view(float).reshape(phasor.size, arm.size, 2)
 
 
-def cross_section(robot: Robot, limits: ArrayLike, count: int, rng: np.random.Generator) -> np.ndarray:
+def cross_section(robot: ForwardModel, limits: ArrayLike, count: int, rng: np.random.Generator) -> np.ndarray:
     """Half-plane section (rho, z) of a spatial arm whose joint 1 turns about base axis z.
 
-    `count` random postures, shape (count, 2). The workspace is this section turned
-    about z through the range of joint 1 (all of it where that is a full turn).
+    The workspace is this section turned about z through the range of joint 1 (all of it where that is a full turn).
+
+    Parameters
+    ----------
+    robot : object with ``forward``, or the function
+    limits : array_like, shape (n, 2)
+    count : int
+    rng : numpy.random.Generator
+
+    Returns
+    -------
+    array, shape (count, 2)
+        Of random postures, metres.
 
     Raises
     ------
@@ -344,13 +373,13 @@ def _blocks(total: int) -> list[slice]:
     return [slice(start, min(start + _BLOCK, total)) for start in range(0, total, _BLOCK)]
 
 
-def _in_blocks(robot: Robot, joints: Callable[[slice], np.ndarray], total: int) -> np.ndarray:
+def _in_blocks(robot: ForwardModel, joints: Callable[[slice], np.ndarray], total: int) -> np.ndarray:
     if total < 1:
         raise ValueError(f"at least one point is needed, found {total}")
     return np.concatenate([_positions(robot, joints(block)) for block in _blocks(total)])
 
 
-def _positions(robot: Robot, q: np.ndarray) -> np.ndarray:
+def _positions(robot: ForwardModel, q: np.ndarray) -> np.ndarray:
     """Points of poses (..., 4, 4), or the points themselves."""
     forward: Any = getattr(robot, "forward", robot)
     result = np.asarray(forward(q))

@@ -2,7 +2,7 @@
 
 Numbers only (NumPy), and every function is batched: leading dimensions are written ``...``. Lengths are in metres,
 angles in radians. Nothing here draws, judges or knows of an exercise, so the drawings, the judge and the reference
-solver all build on it. The symbolic forms are in ``autograder.reference.elementary``.
+solver all build on it. The symbolic forms are in ``autograder.reference.transforms``.
 
 References
 ----------

@@ -27,7 +27,7 @@ from autograder.judge.misconceptions import (
 )
 from autograder.reference import DHTable, robots
 from autograder.reference.centres import epfl_centres, scara_centres
-from autograder.reference.elementary import modified_dh, rot_z
+from autograder.reference.transforms import modified_dh, rot_z
 
 t1, t2, t3, t4, t5, t6 = ANGLES = sympy.symbols("t1:7")
 L1, L2, L4, D3, D4, w, a3, d3 = sympy.symbols("L1 L2 L4 D3 D4 w a3 d3")

@@ -20,7 +20,7 @@ from autograder.judge.misconceptions import (
     symbol_negated,
 )
 from autograder.reference import robots
-from autograder.reference.elementary import modified_dh
+from autograder.reference.transforms import modified_dh
 
 t1, t2, r3, t4, d2, d3, r30 = sympy.symbols("t1 t2 r3 t4 d2 d3 r30")
 X, Y, Z1, Z2, tj = sympy.symbols("X Y Z1 Z2 tj")

@@ -22,7 +22,7 @@ from autograder.judge.misconceptions import (
     transposed_rotation,
 )
 from autograder.reference import DHTable
-from autograder.reference.elementary import (
+from autograder.reference.transforms import (
     classic_dh,
     modified_dh,
     modified_dh_inverse,

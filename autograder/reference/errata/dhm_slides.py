@@ -6,10 +6,10 @@ import numpy as np
 import sympy as sp
 
 from .. import catalogue as robots
-from ..elementary import classic_dh, modified_dh, rot_x, rot_z, trans_x, trans_z
 from ..equations import type8
 from ..singularities import mobility
 from ..tables import DHTable
+from ..transforms import classic_dh, modified_dh, rot_x, rot_z, trans_x, trans_z
 from ..workspace import RRArm, planar_points
 from .proof import Erratum, against, agree, assembled
 

@@ -8,9 +8,9 @@ import sympy as sp
 from dhkit.geometry import rotation
 
 from .. import catalogue as robots
-from ..elementary import modified_dh
 from ..orientation import euler_matrix, rpy_matrix
 from ..parallel import ThreeRPR, ThreeRRR
+from ..transforms import modified_dh
 from .proof import Erratum, against, agree, assembled
 
 DOCUMENT = "EPFL slides"

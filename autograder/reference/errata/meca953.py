@@ -11,8 +11,8 @@ import sympy as sp
 from dhkit.geometry import rotation_angle_between
 
 from .. import catalogue as robots
-from ..elementary import classic_dh, modified_dh, modified_dh_inverse, rot_x, rot_z, trans_x, trans_z
 from ..orientation import euler_matrix
+from ..transforms import classic_dh, modified_dh, modified_dh_inverse, rot_x, rot_z, trans_x, trans_z
 from ..urdf import UrdfJoint, table_from_urdf
 from .proof import Check, Erratum, Reading, against, agree, assembled
 

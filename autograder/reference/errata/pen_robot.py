@@ -6,7 +6,7 @@ import numpy as np
 import sympy as sp
 
 from .. import catalogue as robots
-from ..elementary import modified_dh
+from ..transforms import modified_dh
 from .proof import Check, Erratum, Reading, against, agree
 
 DOCUMENT = "pen robot sheet"

@@ -48,7 +48,11 @@ def rot_z(theta: Entry) -> sp.Matrix:
 
 
 def modified_dh(a: Entry, alpha: Entry, d: Entry, theta: Entry) -> sp.Matrix:
-    """Modified DH matrix, multiplied out: frame i seen from frame i-1."""
+    """Modified DH matrix, multiplied out: frame i seen from frame i-1.
+
+    Source: W. Khalil, J. Kleinfinger, "A new geometric notation for open and closed-loop robots", ICRA 1986,
+    doi:10.1109/ROBOT.1986.1087552; MECA 953 slides.
+    """
     ca, sa, c, s = sp.cos(alpha), sp.sin(alpha), sp.cos(theta), sp.sin(theta)
     return sp.Matrix(
         [
@@ -74,7 +78,11 @@ def modified_dh_inverse(a: Entry, alpha: Entry, d: Entry, theta: Entry) -> sp.Ma
 
 
 def classic_dh(a: Entry, alpha: Entry, d: Entry, theta: Entry) -> sp.Matrix:
-    """Classic DH matrix, multiplied out, with the parameters a_i, alpha_i, d_i, theta_i."""
+    """Classic DH matrix, multiplied out, with the parameters a_i, alpha_i, d_i, theta_i.
+
+    Source: J. Denavit, R. Hartenberg, "A kinematic notation for lower-pair mechanisms based on matrices", 1955,
+    doi:10.1115/1.4011045.
+    """
     ca, sa, c, s = sp.cos(alpha), sp.sin(alpha), sp.cos(theta), sp.sin(theta)
     return sp.Matrix(
         [
