@@ -130,6 +130,9 @@ def _robot(model: type[InverseModel] | None) -> Callable[[Callable[..., DHTable]
             in_letters = table(**{**given.arguments, **letters})
             return _with_values(in_letters, model, {name: given.arguments[name] for name in lengths}, limits)
 
+        limits = inspect.Parameter("limits", inspect.Parameter.KEYWORD_ONLY, default=None, annotation="Limits | None")
+        shown = signature.replace(parameters=[*signature.parameters.values(), limits], return_annotation="Robot")
+        robot.__signature__ = shown  # type: ignore[attr-defined]  # what help() shows
         _DEFAULTS[table.__name__.upper()] = robot
         return robot
 

@@ -1,5 +1,6 @@
 """What `solve` and `nearest` answer: vectors, order, labels, limits, families, messages."""
 
+import inspect
 import sys
 
 import numpy as np
@@ -360,6 +361,7 @@ def test_lengths_may_be_letters_or_numbers_by_place_or_name():
     robot = robots.scara(k / 2, a3=0.5, limits=[(-1, 1)] * 4)
     assert robot.table.rows[1].a == k / 2 and robot.table.values == {"a3": 0.5}
     assert robot.table.limits == ((-1, 1),) * 4
+    assert list(inspect.signature(robots.scara).parameters) == ["a2", "a3", "limits"]
     with pytest.raises(TypeError, match="a5"):
         robots.scara(a5=0.2)
 
