@@ -4,34 +4,56 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import lru_cache
+from itertools import combinations
 
 from dhkit import wire
 from dhkit.forms import Form
 
 from .decode import Decoded, Malformed, decode
 from .kinds import read
-from .question import Family, Question, Way, take
+from .question import Family, Question, Step, Way, take
 from .tree import IMPOSSIBLE
 
 # Results of one function that are remembered: more than any question has argument lists.
 MOST_RESULTS = 256
 
 
-def expected_answer(question: Question, ways: tuple[Way, ...], student: str) -> tuple[object, bool]:
-    """The answer with mistakes made in some ways, in its kind's own form; whether it is one of infinitely many."""
+@dataclass(frozen=True)
+class Expected:
+    """What the question itself answers.
+
+    Attributes
+    ----------
+    forms : tuple
+        The answer as its kind holds it; several where a student may give one or another. `Malformed` for a function
+        that fails.
+    family : bool
+        True if infinitely many solutions are right, of which the one form shows some.
+    """
+
+    forms: tuple[object, ...]
+    family: bool = False
+
+
+def expect_answer(question: Question, ways: tuple[Way, ...], student: str) -> Expected:
+    """The right answer, or the one with mistakes made in some ways."""
     return _answer(question, ways, student if question.personal else None)
 
 
-def expected_result(question: Question, ways: tuple[Way, ...], student: str, args: list) -> tuple[object, bool]:
-    """What the question's function returns for `args`, a `Malformed` where it fails; whether it is one of infinitely many."""
+def expect_result(question: Question, ways: tuple[Way, ...], student: str, args: list) -> Expected:
+    """What the question's function returns for `args`, right or with mistakes made in some ways."""
+    wrong, steps = _split(ways)
     try:
-        wrong, steps = _split(ways)
-        function = take(steps, _reference(question, wrong, student if question.personal else None))
-        result, family = _unwrap(function(*args))
+        result = _reference(question, wrong, student if question.personal else None)(*args)
+        results = _take_any(steps, result) if ways else [_list(result)]
+        return Expected(
+            tuple(read_result(question.returns, decode(wire.encode(one))) for one in results),
+            isinstance(result, Family) and not ways,
+        )
     except IMPOSSIBLE as error:
-        return Malformed(f"no value: {error}"), False
-    return read_result(question.returns, decode(wire.encode(result))), family
+        return Expected((Malformed(f"no value: {error}"),))
 
 
 def read_result(form: Form, result: Decoded) -> object:
@@ -43,10 +65,13 @@ def read_result(form: Form, result: Decoded) -> object:
 
 
 @lru_cache(maxsize=8192)
-def _answer(question: Question, ways: tuple[Way, ...], student: str | None) -> tuple[object, bool]:
+def _answer(question: Question, ways: tuple[Way, ...], student: str | None) -> Expected:
     wrong, steps = _split(ways)
-    answer, family = _unwrap(_reference(question, wrong, student))
-    return _read(question, json.dumps(wire.encode(take(steps, answer)))), family
+    answer = _reference(question, wrong, student)
+    answers = _take_any(steps, answer) if ways else [_list(answer)]
+    return Expected(
+        tuple(_read(question, json.dumps(wire.encode(one))) for one in answers), isinstance(answer, Family) and not ways
+    )
 
 
 @lru_cache(maxsize=8192)
@@ -63,13 +88,22 @@ def _reference(question: Question, ways: tuple[Way, ...], student: str | None) -
     return _remember(answer) if question.form.kind == "function" else answer
 
 
-def _split(ways: tuple[Way, ...]) -> tuple[tuple[Way, ...], list]:
+def _split(ways: tuple[Way, ...]) -> tuple[tuple[Way, ...], list[Step]]:
     """The ways that the reference goes, and the steps behind them."""
     return tuple(way for way in ways if way.step is None), [way.step for way in ways if way.step is not None]
 
 
-def _unwrap(answer: object) -> tuple[object, bool]:
-    return (answer.solutions, True) if isinstance(answer, Family) else (answer, False)
+def _list(answer: object) -> object:
+    return answer.solutions if isinstance(answer, Family) else answer
+
+
+def _take_any(steps: list[Step], answer: object) -> list[object]:
+    """The answer after the steps; of a family, after the steps on each choice of its representatives."""
+    if not isinstance(answer, Family):
+        return [take(steps, answer)]
+    count = len(answer.solutions)
+    choices = (choice for size in range(1, count + 1) for choice in combinations(answer.solutions, size))
+    return [take(steps, list(choice)) for choice in choices]
 
 
 def _remember(function: Callable) -> Callable:

@@ -7,13 +7,13 @@ the question has better words::
     mistakes=(sign_of("alpha", 3), classic_table(), columns_exchanged("a", "d", share=0.2))
 
 Answers that steps work on: a DH table is a list of rows ``[sigma, a, alpha, d, theta]``, rows counted from 1 as on the
-slides; a transform is a SymPy matrix; joint solutions are a list of rows; a probed function is a function. `of_function`
-makes a mistake about results one about functions.
+slides; a transform is a SymPy matrix; joint solutions are a list of rows. Of a probed question they work on what the
+function returns. Mistakes that are made on the way to an answer take the keywords with which the reference makes them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -22,6 +22,7 @@ import sympy
 from dhkit.forms.dh_table import DH_COLUMNS
 
 from .question import Mistake, Step, Wrong, mistake
+from .steps import change_cell, change_rows, substitute
 
 Rows = list[list]
 
@@ -33,39 +34,20 @@ def _entry(
     /,
     *steps: Step,
     turn: float = 2 * np.pi,
-    wrong: Wrong | None = None,
+    wrong: Wrong | Sequence[Wrong] = (),
     **other,
 ) -> Mistake:
     """A `Mistake` of the catalogue; `other` replaces its note, share or feedback, `wrong` the steps it is made in."""
-    made = (
-        mistake(note, share, feedback, turn=turn, wrong=wrong)
-        if wrong
-        else mistake(note, share, feedback, *steps, turn=turn)
-    )
-    return replace(made, **other)
+    return replace(mistake(note, share, feedback, *(() if wrong else steps), wrong=wrong, turn=turn), **other)
 
 
 # ---------------------------------------------------------------- tables
 
 
-def _with_cell(rows: Sequence[Sequence], row: int, column: str, change: Callable) -> Rows:
-    """The table with one cell changed."""
-    table = [list(each) for each in rows]
-    cell = DH_COLUMNS.index(column)
-    table[row - 1][cell] = change(table[row - 1][cell])
-    return table
-
-
-def _each_and_all(rows: Sequence[int], change: Callable) -> list[Step]:
+def _each_and_all(column: str, change: Callable, rows: Sequence[int]) -> list[Step]:
     """One step for every row, and one for all of them together."""
-
-    def everywhere(table):
-        for row in rows:
-            table = change(table, row)
-        return table
-
-    steps = [lambda table, row=row: change(table, row) for row in rows]
-    return steps if len(rows) == 1 else [*steps, everywhere]
+    steps = [change_rows(column, change, row) for row in rows]
+    return steps if len(rows) == 1 else [*steps, change_rows(column, change, *rows)]
 
 
 def classic_table(last: Sequence = (0, 0), **other) -> Mistake:
@@ -133,7 +115,7 @@ def sign_of(column: str, *rows: int, **other) -> Mistake:
         f"sign_of_{column}",
         0.6,
         f"**A sign is turned in column {column}.** {how[column]}",
-        *_each_and_all(rows, lambda table, row: _with_cell(table, row, column, lambda cell: -cell)),
+        *_each_and_all(column, lambda cell: -cell, rows),
         **other,
     )
 
@@ -150,7 +132,7 @@ def offset_missing(*rows: int, **other) -> Mistake:
         0.6,
         "**A joint offset is missing.** At q = 0 the frames of your table do not stand as in the drawing: in which row "
         "does X_(i-1) have to turn before the joint has moved at all?",
-        *_each_and_all(rows, lambda table, row: _with_cell(table, row, "theta", lambda cell: cell - _constant(cell))),
+        *_each_and_all("theta", lambda cell: cell - _constant(cell), rows),
         **other,
     )
 
@@ -160,8 +142,8 @@ def offset_misplaced(row: int, *into: int, **other) -> Mistake:
 
     def moved(table, target):
         offset = _constant(table[row - 1][4])
-        table = _with_cell(table, row, "theta", lambda cell: cell - offset)
-        return _with_cell(table, target, "theta", lambda cell: cell + offset)
+        table = change_cell(row, "theta", lambda cell: cell - offset)(table)
+        return change_cell(target, "theta", lambda cell: cell + offset)(table)
 
     return _entry(
         "joint_offset_misplaced",
@@ -230,7 +212,7 @@ def hypotenuse(row: int, column: str, *legs, **other) -> Mistake:
         0.5,
         f"**In column {column} stands the straight distance between two joints.** a and d are two components of it: one "
         "along X, one along Z.",
-        lambda rows: _with_cell(rows, row, column, lambda cell: length),
+        change_cell(row, column, lambda _: length),
         **other,
     )
 
@@ -386,20 +368,14 @@ def inverse_keeps_position(**other) -> Mistake:
 
 def symbol_negated(symbol: sympy.Symbol, note: str, feedback: str, share: float = 0.6) -> Mistake:
     """A symbol with the wrong sense: everything is as if it were counted the other way."""
-    return mistake(note, share, feedback, lambda answer: _substituted(answer, {symbol: -symbol}))
+    return mistake(note, share, feedback, substitute({symbol: -symbol}))
 
 
 def symbols_exchanged(
     first: sympy.Symbol, second: sympy.Symbol, note: str, feedback: str, share: float = 0.5
 ) -> Mistake:
     """Two symbols stand in each other's place."""
-    return mistake(note, share, feedback, lambda answer: _substituted(answer, {first: second, second: first}))
-
-
-def _substituted(answer, replacements: dict):
-    if isinstance(answer, (list, tuple)):
-        return [_substituted(item, replacements) for item in answer]
-    return sympy.sympify(answer).subs(replacements, simultaneous=True)
+    return mistake(note, share, feedback, substitute({first: second, second: first}))
 
 
 def angles_subtracted(*angles: sympy.Symbol, **other) -> Mistake:
@@ -409,7 +385,7 @@ def angles_subtracted(*angles: sympy.Symbol, **other) -> Mistake:
         0.4,
         "**Joint angles are subtracted.** The joints turn in the same sense about parallel axes: which angle does the "
         "second link make with the x axis when both turn by 10 degrees?",
-        *(lambda answer, angle=angle: _substituted(answer, {angle: -angle}) for angle in angles),
+        *(substitute({angle: -angle}) for angle in angles),
         **other,
     )
 
@@ -466,9 +442,14 @@ def _on_atan2(note: str, share: float, feedback: str, change: Callable, count: i
     return _entry(note, share, feedback, *steps, **other)
 
 
-def misprint(wrong, because: str, **other) -> Mistake:
-    """The answer as a document prints it, wrongly: an answer, or a step that makes the right one into it."""
-    step = wrong if callable(wrong) else lambda _: wrong
+def misprint(printed, because: str, **other) -> Mistake:
+    """The answer as a document prints it, wrongly.
+
+    `printed` is this answer, a step that makes the right one into it, or the keywords with which the reference gives it.
+    """
+    if isinstance(printed, Mapping):
+        other["wrong"] = printed
+    step = printed if callable(printed) else lambda _: printed
     return _entry(
         "slide_misprint",
         0.5,
@@ -482,12 +463,19 @@ def misprint(wrong, because: str, **other) -> Mistake:
 
 
 def posture_missing(*kept: Sequence[int], **other) -> Mistake:
-    """acos without its second sign: only some of the solutions are given. By default one of two; else indices of those kept."""
+    """acos without its second sign: only some of the solutions are given. By default one of two; else indices of those kept.
+
+    Where a target has fewer solutions, those of them that are there, or else all.
+    """
+
+    def keep(found, chosen):
+        return [found[i] for i in chosen if -len(found) <= i < len(found)] or list(found)
+
     return _entry(
         "one_posture_missing",
         0.5,
         "**Not all postures are there.** A cosine alone does not tell the sign of its angle, nor a square root its own.",
-        *(lambda found, chosen=chosen: [found[i] for i in chosen] for chosen in kept or ((0,), (1,))),
+        *(lambda found, chosen=chosen: keep(found, chosen) for chosen in kept or ((0,), (-1,))),
         **other,
     )
 
@@ -524,29 +512,28 @@ def degrees(*angles: int, **other) -> Mistake:
     )
 
 
-def arguments_in_degrees(*angles: int, **other) -> Mistake:
-    """A function takes the arguments at the given places as degrees."""
-
-    def taken_as_degrees(function):
-        return lambda *args: function(*(np.radians(arg) if i in angles else arg for i, arg in enumerate(args)))
-
+def arguments_in_degrees(*wrong: Wrong, **other) -> Mistake:
+    """A function takes angles among its arguments as degrees; `wrong` are keywords with which the reference does."""
     return _entry(
         "degrees",
         0.4,
         "**The angles are taken in degrees.** The question and numpy's cos and sin count in radians.",
-        taken_as_degrees,
+        wrong=wrong,
         **other,
     )
 
 
-def fails_on_limit(*functions: Callable, **other) -> Mistake:
-    """acos without clipping: the function fails where rounding pushes a cosine above 1. `functions` do just that."""
+def fails_on_limit(*wrong: Wrong, **other) -> Mistake:
+    """acos without clipping: the function fails where rounding pushes a cosine above 1.
+
+    `wrong` are keywords with which the reference does just that.
+    """
     return _entry(
         "unclipped_acos",
         0.6,
         "**On a limit your function fails.** Rounding pushes a cosine a hair above 1, where acos has no value. What must "
         "the cosine be on the limit?",
-        *(lambda _, function=function: function for function in functions),
+        wrong=wrong,
         **other,
     )
 
@@ -578,14 +565,17 @@ def one_triple_only(**other) -> Mistake:
     return posture_missing(**about | other)
 
 
-def lock_not_switched(function: Callable, **other) -> Mistake:
-    """At gimbal lock the general formulas are used although atan2(0, 0) says nothing; `function` does that."""
+def lock_not_switched(*wrong: Wrong, **other) -> Mistake:
+    """At gimbal lock the general formulas are used although atan2(0, 0) says nothing.
+
+    `wrong` are keywords with which the reference does that.
+    """
     return _entry(
         "gimbal_lock_not_switched",
         0.6,
         "**At gimbal lock your function is wrong.** There both arguments of an atan2 vanish: only the sum or the difference "
         "of two angles is left, and one of them may be chosen.",
-        lambda _: function,
+        wrong=wrong,
         **other,
     )
 
@@ -600,15 +590,6 @@ def summed_in_the_wrong_frame(*wrong, **other) -> Mistake:
         *(lambda _, answer=answer: answer for answer in wrong),
         **other,
     )
-
-
-def of_function(about: Mistake) -> Mistake:
-    """The same mistake, made by a function in every result it returns."""
-
-    def lifted(step: Step) -> Step:
-        return lambda function: lambda *args: step(function(*args))
-
-    return replace(about, steps=tuple(lifted(step) for step in about.steps))
 
 
 # ---------------------------------------------------------------- choices

@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from .decode import Decoded, Malformed
-from .expected import expected_result, read_result
+from .expected import expect_result, read_result
 from .kinds import Comparison
 from .kinds import compare as compare_answers
 from .question import Question, Way
-from .tree import Verdict, walk
+from .tree import Verdict, nearest, walk
 
 
 def judge_results(question: Question, arguments: list[list], results: Sequence[Decoded], student: str) -> Verdict:
@@ -27,11 +27,16 @@ def judge_results(question: Question, arguments: list[list], results: Sequence[D
     calls = list(zip(arguments, found, strict=True))
 
     def compare(ways: tuple[Way, ...], turn: float, args: list, result: object) -> Comparison:
-        other, family = expected_result(question, ways, student, args)
-        if isinstance(result, Malformed) or isinstance(other, Malformed):
-            return Comparison(isinstance(result, Malformed) and isinstance(other, Malformed), 0.0)
+        expected = expect_result(question, ways, student, args)
         setting = question.setting() if ways else question.setting(student, *args)
-        return compare_answers(form, result, other, replace(setting, turn=turn, family=family and not ways))
+        setting = replace(setting, turn=turn, family=expected.family)
+
+        def beside(other: object) -> Comparison:
+            if isinstance(result, Malformed) or isinstance(other, Malformed):
+                return Comparison(isinstance(result, Malformed) and isinstance(other, Malformed), 0.0)
+            return compare_answers(form, result, other, setting)
+
+        return nearest(beside(other) for other in expected.forms)
 
     cases: dict[str, list[Comparison]] = {}
     for args, result in calls:

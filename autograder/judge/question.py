@@ -27,7 +27,7 @@ Wrong = Mapping[str, object]
 
 @dataclass(frozen=True, eq=False)
 class Way:
-    """One way to make a mistake: the reference called with the keywords of `wrong`, or `step` taken on an answer."""
+    """One way to make a mistake: the reference called with the keywords of `wrong`, or `step` taken on what it returns."""
 
     wrong: Wrong | None = None
     step: Step | None = None
@@ -47,7 +47,8 @@ class Mistake:
         Markdown that names the mistake and points at the slide, without giving the answer. ``{name}`` stands for
         the student's own number of that name.
     steps : tuple of callable
-        Each takes an answer and returns it with the mistake made, in one of its forms.
+        Each takes an answer and returns it with the mistake made, in one of its forms. The answer of a probed question
+        is what the function returns.
     wrong : tuple of mapping
         Each holds keywords of the question's reference that make it compute the mistaken answer, in one of its forms.
     turn : float
@@ -86,9 +87,12 @@ def mistake(
 
 @dataclass(frozen=True)
 class Family:
-    """Infinitely many joint solutions: some representatives of them. Every solution that reaches the target is right."""
+    """Infinitely many joint solutions, by some of them. Every solution that reaches the target is right.
 
-    solutions: object
+    Who makes a mistake gives one of these representatives, or some, with the mistake in each.
+    """
+
+    solutions: list
 
 
 @dataclass(frozen=True)
@@ -201,7 +205,11 @@ class Question:
         A function for a probed question.
         """
         wrong = {name: value for way in ways for name, value in (way.wrong or {}).items()}
-        return take([way.step for way in ways if way.step is not None], self.compute(student, wrong))
+        steps = [way.step for way in ways if way.step is not None]
+        made = self.compute(student, wrong)
+        if self.form.kind == "function":
+            return lambda *args: take(steps, made(*args))
+        return take(steps, made)
 
     def compute(self, student: str, wrong: Wrong) -> object:
         """What the reference gives for a student when it goes wrong as told."""
@@ -235,7 +243,7 @@ class Question:
 
 
 def take(steps: Sequence[Step], answer: object) -> object:
-    """The answer after some steps, the first one first; of a family they take the representatives."""
+    """The answer after some steps, the first one first; of a family they take all representatives."""
     if steps and isinstance(answer, Family):
         answer = answer.solutions
     for step in steps:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import permutations, product
 
@@ -54,9 +54,13 @@ def walk(question: Question, student: str, against_reference: Comparison, matche
     for node in question.mistakes:
         if any(_is_match(matches, (way,), node.turn) for way in node.ways):
             return Verdict(node.share, node.note, _fill_in(node.feedback, numbers))
-    for first, second in permutations(question.mistakes, 2):
+    for pair in permutations(range(len(question.mistakes)), 2):
+        first, second = (question.mistakes[place] for place in pair)
         turn = max(first.turn, second.turn)
-        if any(_is_match(matches, ways, turn) for ways in product(first.ways, second.ways) if _in_order(*ways)):
+        ways = product(first.ways, second.ways)
+        if pair[0] > pair[1]:  # The other order was tried already; it makes a difference for two steps only.
+            ways = (both for both in ways if all(way.step for way in both))
+        if any(_is_match(matches, both, turn) for both in ways):
             note = "+".join(sorted((first.note, second.note)))
             feedback = "\n\n".join(_fill_in(node.feedback, numbers) for node in (first, second))
             return Verdict(first.share * second.share, note, feedback)
@@ -66,9 +70,12 @@ def walk(question: Question, student: str, against_reference: Comparison, matche
     return Verdict(share, note, f"**{'Partly right' if share > 0 else 'Not right'}.** {what[0].upper()}{what[1:]}.")
 
 
-def _in_order(first: Way, second: Way) -> bool:
-    """Keywords of the reference act before any step: with a step in front of them nothing else comes out."""
-    return first.step is None or second.step is not None
+def nearest(comparisons: Iterable[Comparison]) -> Comparison:
+    """The comparison with the form that the student's answer has; the last one where it has none of them."""
+    for comparison in comparisons:
+        if comparison.equal:
+            break
+    return comparison
 
 
 def _is_match(matches: Matches, ways: tuple[Way, ...], turn: float) -> bool:

@@ -14,12 +14,12 @@ from dhkit.nodes import is_blank
 from dhkit.variants import NOBODY
 
 from .decode import Decoded, Failure, Malformed, decode_answer, decode_probes, decode_student
-from .expected import expected_answer
+from .expected import expect_answer
 from .kinds import Comparison, Entries, Setting, read
 from .kinds import compare as compare_answers
 from .probing import judge_results
 from .question import Question, Way
-from .tree import Verdict, walk
+from .tree import Verdict, nearest, walk
 
 FORGIVEN = "**Right for your own earlier answer.** What went wrong there has been counted there; from it you went on correctly."
 
@@ -134,10 +134,9 @@ def _judge_data(question: Question, decoded: Decoded, student: str, earlier: Map
     answer = read(form, decoded)
 
     def compare(ways: tuple[Way, ...], turn: float) -> Comparison:
-        other, family = expected_answer(question, ways, student)
-        return compare_answers(
-            form, answer, other, replace(setting, turn=turn, family=family and not ways, patient=not ways)
-        )
+        expected = expect_answer(question, ways, student)
+        asked = replace(setting, turn=turn, family=expected.family, patient=not ways)
+        return nearest(compare_answers(form, answer, other, asked) for other in expected.forms)
 
     against_reference = compare((), setting.turn)
     if not against_reference.equal and _follows(question, answer, setting, earlier):

@@ -325,14 +325,14 @@ def test_cancellation_never_fails_a_right_answer():
 # ---------------------------------------------------------------- functions
 
 
-def raising(half):
-    return lambda x: half(x) if x else 1 / 0
+def halve(x, *, divided=False):
+    return [x / 2, x / x if divided else 1.0]
 
 
 HALF = Question(
     "arm.half",
-    reference=lambda x: [x / 2, 1.0],
-    mistakes=(mistake("fails_at_zero", 0.6, "**At zero it fails.**", raising),),
+    reference=halve,
+    mistakes=(mistake("fails_at_zero", 0.6, "**At zero it fails.**", wrong={"divided": True}),),
     probe=lambda rng: [[1.0], [0.0], [3.0]],
     case=lambda x: "zero" if x == 0 else "the rest",
 )

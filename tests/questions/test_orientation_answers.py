@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from autograder.questions import find
-from autograder.questions.orientation import R, e, rotation_and_sign, wrist_angles
+from autograder.questions.orientation.model import R, draw_rotation_and_sign, e, wrist_angles
 from autograder.reference.orientation import EULER_SETS, euler_angles, rpy_matrix
 from dhkit.geometry import rotation_angle_between
 from dhkit.public import variant_ranges
@@ -15,7 +15,7 @@ from dhkit.variants import OwnNumbers
 
 @pytest.mark.parametrize("axes", EULER_SETS)
 def test_wrist_formulas_give_both_solutions_of_the_reference_solver(axes):
-    values = {name: value for name, value in rotation_and_sign(np.random.default_rng(5)).items() if name != "e"}
+    values = {name: value for name, value in draw_rotation_and_sign(np.random.default_rng(5)).items() if name != "e"}
     matrix = np.array([values[str(entry)] for entry in R]).reshape(3, 3)
     found = [[float(angle.subs(values | {"e": sign})) for angle in wrist_angles(axes)] for sign in (1, -1)]
     assert found == pytest.approx(euler_angles(matrix, axes, intrinsic=True).angles, abs=1e-9)

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from functools import lru_cache
-
 import numpy as np
-import sympy
 
 from autograder.judge import Question, mistake
 from autograder.judge.misconceptions import (
@@ -25,167 +21,54 @@ from autograder.judge.misconceptions import (
     symbol_negated,
     transposed_rotation,
 )
-from autograder.reference import DHTable, robots
-from autograder.reference.centres import epfl_centres, scara_centres
-from autograder.reference.transforms import modified_dh, rot_z
+from autograder.judge.steps import change_cell, negate, replace_entry, substitute
 
-t1, t2, t3, t4, t5, t6 = ANGLES = sympy.symbols("t1:7")
-L1, L2, L4, D3, D4, w, a3, d3 = sympy.symbols("L1 L2 L4 D3 D4 w a3 d3")
-C, S, HALF = sympy.cos, sympy.sin, sympy.pi / 2
-
-
-# ---------------------------------------------------------------- turns in the plane
-
-SCARA_K = scara_centres((t1, t2, t4), (L1, L2))
-BLANKS = list(SCARA_K[2][:2, 2])
-TOOL_0 = sympy.Matrix([L1 + L2 + L4, w, 1])
-
-
-def planar_tool(*angles) -> list[sympy.Expr]:
-    """The tool point if the two links and the hand make these angles with x."""
-    parts = [rot_z(angle)[:2, :2] * sympy.Matrix(step) for angle, step in zip(angles, ([L1, 0], [L2, 0], [L4, w]))]
-    return list(sum(parts, sympy.zeros(2, 1)))
-
-
-TOOL_POINT = planar_tool(t1, t1 + t2, t1 + t2 + t4)
-
-
-def with_unturned(*lengths) -> list[sympy.Expr]:
-    """The tool point with these lengths of its step from the wrist added along the axes of the base."""
-    turned = [entry.subs(dict.fromkeys(lengths, 0)) for entry in TOOL_POINT]
-    return [entry + (length if length in lengths else 0) for entry, length in zip(turned, (L4, w))]
-
-
-# ---------------------------------------------------------------- six turns in space
-
-
-def lists(matrices) -> list:
-    return [matrix.tolist() for matrix in matrices]
-
-
-K = epfl_centres(ANGLES, D3, L2, D4)
-WRIST_0 = sympy.Matrix([D3, 0, L2 + D4, 1])
-# Turns 4, 5 and 6 leave the wrist centre alone.
-WRIST = list((K[0] * K[1] * K[2] * WRIST_0)[:3, 0])
-BASE_FIRST = list((K[2] * K[1] * K[0] * WRIST_0)[:3, 0])
-CENTRES = [[0, 0, 0], [0, 0, 0], [0, 0, L2], [D3, 0, 0], [0, 0, L2 + D4], [D3, 0, 0]]
-
-
-def with_last_columns(matrices, change) -> list:
-    """The six matrices, the translation of each replaced by `change(matrix, index)`."""
-    changed = []
-    for i, matrix in enumerate(map(sympy.Matrix, matrices)):
-        new = matrix.copy()
-        new[:3, 3] = sympy.Matrix(change(matrix[:3, 3], i))
-        changed.append(new.tolist())
-    return changed
-
-
-def without(symbol):
-    """Everything as if this length were zero."""
-
-    def step(answer):
-        nested = isinstance(answer, (list, tuple))
-        return [step(item) for item in answer] if nested else sympy.sympify(answer).subs(symbol, 0)
-
-    return step
-
-
-TABLE = robots.EPFL_ARM.table
-ROWS = [[row.sigma, *row.parameters] for row in TABLE.rows]
-
-
-def offset_as_link_length(rows):
-    """D3 in column a of the row of joint 4."""
-    rows = [list(row) for row in rows]
-    rows[3][1], rows[2][3] = rows[3][1] + rows[2][3], sympy.S.Zero
-    return rows
-
-
-def in_row_3(column, value):
-    """Another length in row 3."""
-
-    def step(rows):
-        rows = [list(row) for row in rows]
-        rows[2][column] = value
-        return rows
-
-    return step
-
-
-def or_with(step, about):
-    """A mistake of one step, alone or with a second step behind it."""
-    (first,) = about.steps
-    return replace(about, steps=(first, lambda rows: step(first(rows))))
-
-
-# ---------------------------------------------------------------- the RX-90
-
-RX90 = robots.RX90.table
-TRANSFORMS = RX90.transforms()
-U0, U1, U2, U3, *_ = RX90.recursion()
-# Row 6 with alpha = +90 degrees: the slide's page of matrices.
-PRINTED_U0, _, PRINTED_U2, *_ = DHTable([*RX90.rows[:5], (0, 0, HALF, 0, t6)]).recursion()
-
-# 1 marks a printed cell that differs from the product of the table (a test compares them).
-WRONG_T56 = [[0, 0, 0, 0], [0, 0, 1, 0], [1, 1, 0, 0], [0, 0, 0, 0]]
-WRONG_U4 = [[0, 0, 0, 0], [0, 0, 0, 0], [1, 0, 0, 0], [0, 0, 0, 0]]
-WRONG_U3 = [[1, 1, 0, 0], [0, 0, 0, 0], [1, 1, 0, 0], [0, 0, 0, 0]]
-NO_CELL = [[0] * 4 for _ in range(4)]
-
-
-def whole_columns(marks):
-    """Every cell of a column that has a wrong one, as the test of orthogonality points at columns."""
-    marks = np.array(marks)
-    columns = marks.any(axis=0, keepdims=True) & (np.arange(4)[:, None] < 3)
-    return np.where(columns, 1, 0).tolist()
-
-
-def one_unmarked(cell):
-    """A wrong cell of U3 is overlooked."""
-
-    def step(marks):
-        marks = np.array(marks)
-        marks[2][cell] = 0
-        return marks.tolist()
-
-    return step
-
-
-# ---------------------------------------------------------------- a tool
-
-
-@lru_cache
-def rx90(a3, d3) -> DHTable:
-    return RX90.at({"a3": a3, "d3": d3})
-
-
-def forward(*q, mine, tool="right", bend="radians", angles="radians") -> np.ndarray:
-    """The pose of the student's tool on the RX-90, (4, 4), for six joint angles."""
-    arm = rx90(mine.a3, mine.d3).forward(np.radians(q) if angles == "degrees" else q)
-    if tool == "none":
-        return arm
-    step = tool_matrix(mine.reach, mine.bend if bend == "degrees" else np.radians(mine.bend), mine.length)
-    return step @ arm if tool == "left" else arm @ step
-
-
-@lru_cache
-def tool_matrix(reach, bend, length) -> np.ndarray:
-    """The step from frame 6 to the tool frame."""
-    return np.array(modified_dh(reach, bend, length, 0).evalf(), dtype=float)
-
-
-def probes(rng: np.random.Generator) -> list[list[float]]:
-    """Argument lists for forward: random postures, then quarter turns."""
-    random = [[float(angle) for angle in rng.uniform(-3, 3, 6)] for _ in range(6)]
-    quarters = [[float(k) * np.pi / 2 for k in rng.integers(-2, 3, 6)] for _ in range(3)]
-    return [*random, *quarters]
-
-
-def group(*q) -> str:
-    quarters = np.divide(q, np.pi / 2)
-    return "quarter turns" if np.allclose(quarters, quarters.round()) else "random postures"
-
+from .model import (
+    ABSOLUTE_WRIST,
+    BLANKS,
+    CENTRES,
+    D3,
+    D4,
+    ELBOW_AT_WRIST,
+    K_LISTS,
+    L1,
+    L2,
+    L4,
+    NO_CELL,
+    PRINTED_U0,
+    PRINTED_U2,
+    ROWS,
+    TOOL_BASE_FIRST,
+    TOOL_POINT,
+    TRANSFORMS,
+    TURNED_CENTRE,
+    U0,
+    U1,
+    U2,
+    U3,
+    WRIST,
+    WRIST_AT_ELBOW,
+    WRIST_BASE_FIRST,
+    WRONG_T56,
+    WRONG_U3,
+    WRONG_U4,
+    change_last_columns,
+    draw_angles,
+    forward,
+    leave_unturned,
+    mark_columns,
+    name_posture,
+    offset_as_link_length,
+    or_with,
+    planar_tool,
+    t1,
+    t2,
+    t3,
+    t4,
+    turn_backwards,
+    unmark,
+    w,
+)
 
 QUESTIONS = (
     Question(
@@ -196,7 +79,7 @@ QUESTIONS = (
                 "sign_of_translation",
                 0.5,
                 "**The sign is turned: this is R p - p.** Put the centre [L1 + L2, 0, 1] into your matrix: it should stay.",
-                lambda blanks: [-blank for blank in blanks],
+                negate(0, 1),
             ),
             mistake(
                 "centre_as_translation",
@@ -211,14 +94,14 @@ QUESTIONS = (
                 0.4,
                 "**This is R p, or its opposite, alone.** The last column is what is missing between R p and p: see the "
                 "slide that derives [R, p - R p].",
-                lambda _: list(rot_z(t4)[:2, 0] * (L1 + L2)),
-                lambda _: list(-rot_z(t4)[:2, 0] * (L1 + L2)),
+                lambda _: TURNED_CENTRE,
+                lambda _: [-entry for entry in TURNED_CENTRE],
             ),
             mistake(
                 "another_centre",
                 0.5,
                 "**This is the turn about another joint.** Joint 4 is at the wrist; where is that in the reference position?",
-                *(lambda blanks, gone=gone: [blank.subs(gone, 0) for blank in blanks] for gone in (L1, L2)),
+                *(substitute({gone: 0}) for gone in (L1, L2)),
             ),
         ),
     ),
@@ -239,11 +122,11 @@ QUESTIONS = (
                 0.3,
                 "**The turns are multiplied in the reverse order.** Once joint 1 has turned, the other centres are no longer "
                 "where they were in the reference position. Which turn leaves all the other centres alone?",
-                lambda _: list((SCARA_K[2] * SCARA_K[1] * SCARA_K[0] * TOOL_0)[:2, 0]),
+                lambda _: TOOL_BASE_FIRST,
             ),
             summed_in_the_wrong_frame(
-                with_unturned(L4, w),
-                with_unturned(w),
+                leave_unturned(L4, w),
+                leave_unturned(w),
                 feedback="**A length of the tool is added as it stands.** Ahead and left are told as the hand sees them, and the hand has "
                 "turned: what is ahead of it is not ahead of the base.",
             ),
@@ -257,38 +140,36 @@ QUESTIONS = (
     ),
     Question(
         "direct_models.K",
-        reference=lists(K),
+        reference=K_LISTS,
         mistakes=(
             mistake(
                 "sign_of_translation",
                 0.5,
                 "**The last columns have the wrong sign: R p - p.** Each K must leave every point of its own axis where it is. "
                 "Try it with the centre.",
-                lambda matrices: with_last_columns(matrices, lambda column, i: -column),
+                change_last_columns(lambda column, i: -column),
             ),
             mistake(
                 "centre_as_translation",
                 0.4,
                 "**The last columns are the centres themselves.** They must be p - R p: what the turn about the origin takes "
                 "away from p. See the slide of K5 and K6.",
-                lambda matrices: with_last_columns(matrices, lambda column, i: CENTRES[i]),
+                change_last_columns(lambda column, i: CENTRES[i]),
             ),
             mistake(
                 "elbow_at_the_wrist",
                 0.6,
                 "**K3 and K5 turn about the same height.** Axis 3 is at the elbow, axis 5 at the wrist; read both heights from "
                 "the figure.",
-                lambda matrices: [*matrices[:2], epfl_centres(ANGLES, D3, L2 + D4, 0)[2].tolist(), *matrices[3:]],
-                lambda matrices: [*matrices[:4], epfl_centres(ANGLES, D3, L2, 0)[4].tolist(), matrices[5]],
+                replace_entry(2, ELBOW_AT_WRIST),
+                replace_entry(4, WRIST_AT_ELBOW),
             ),
             mistake(
                 "opposite_sense",
                 0.5,
                 "**The turns go the wrong way round.** Positive is about +x and +z, thumb along the axis, as in the K5 and K6 of "
                 "the slide.",
-                lambda matrices: lists(
-                    m.subs({t: -t for t in m.free_symbols.intersection(ANGLES)}) for m in map(sympy.Matrix, matrices)
-                ),
+                turn_backwards,
             ),
         ),
         # Most cells are 0 or 1 whatever the centres are: right cells alone say little.
@@ -299,7 +180,7 @@ QUESTIONS = (
         reference=WRIST,
         mistakes=(
             angle_not_summed(
-                list((K[0] * sympy.Matrix([D3, -L2 * S(t2) - D4 * S(t3), L2 * C(t2) + D4 * C(t3), 1]))[:3, 0]),
+                ABSOLUTE_WRIST,
                 feedback="**The forearm is placed as if t3 were counted from the vertical.** t3 goes from the upper arm to the "
                 "forearm: with t3 = 0 the arm is stretched, whatever t2 is.",
             ),
@@ -308,20 +189,20 @@ QUESTIONS = (
                 0.3,
                 "**The turns are multiplied in the reverse order.** K1 stands on the left, and the hand's K nearest to the "
                 "point: only then is every centre still in the reference position.",
-                lambda _: BASE_FIRST,
+                lambda _: WRIST_BASE_FIRST,
             ),
             mistake(
                 "leans_the_other_way",
                 0.5,
                 "**The arm leans to the other side.** A positive turn about x carries z towards -y: thumb along x, and see where "
                 "the fingers go.",
-                lambda wrist: [sympy.sympify(entry).subs({t2: -t2, t3: -t3}, simultaneous=True) for entry in wrist],
+                substitute({t2: -t2, t3: -t3}),
             ),
             mistake(
                 "d3_left_out",
                 0.6,
                 "**The offset D3 is missing.** The plane of the arm does not contain axis 1.",
-                without(D3),
+                substitute({D3: 0}),
             ),
         ),
     ),
@@ -341,7 +222,7 @@ QUESTIONS = (
             sign_of("alpha", 2, 4, 5, 6),
             offset_misplaced(3, 2),
             or_with(
-                in_row_3(3, 0),
+                change_cell(3, "d", lambda _: 0),
                 hypotenuse(
                     4,
                     "d",
@@ -352,7 +233,7 @@ QUESTIONS = (
                 ),
             ),
             or_with(
-                in_row_3(1, D3),
+                change_cell(3, "a", lambda _: D3),
                 origins_as_d(
                     (0, 0, L2, D4, 0, 0),
                     feedback="**Heights of the figure were copied into column d.** d is measured along Z_i, from X_(i-1) to X_i: is "
@@ -378,14 +259,14 @@ QUESTIONS = (
                 0.3,
                 "**You have marked whole columns.** That a column is no unit vector tells where to look, not which of its cells is "
                 "wrong: compare cell by cell with your own product.",
-                lambda marks: [marks[0], *map(whole_columns, marks[1:])],
+                lambda marks: [marks[0], *map(mark_columns, marks[1:])],
             ),
             mistake(
                 "cell_overlooked",
                 0.7,
                 "**One wrong cell of U3 is not marked.** Put numbers for the angles into your own U3 and into the printed one, and "
                 "compare all twelve.",
-                *map(one_unmarked, ((0, 0), (0, 1), (2, 0), (2, 1))),
+                *map(unmark, ((0, 0), (0, 1), (2, 0), (2, 1))),
             ),
             mistake(
                 "right_and_wrong_exchanged",
@@ -460,9 +341,9 @@ QUESTIONS = (
                 "**The bend of {bend} degrees is taken as {bend} radians.** cos and sin count in radians.",
                 wrong={"bend": "degrees"},
             ),
-            arguments_in_degrees(wrong={"angles": "degrees"}),
+            arguments_in_degrees({"angles": "degrees"}),
         ),
-        probe=probes,
-        case=group,
+        probe=draw_angles,
+        case=name_posture,
     ),
 )

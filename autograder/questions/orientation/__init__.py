@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import sympy
 
-from autograder.judge import Family, Question, mistake
+from autograder.judge import Question, mistake
 from autograder.judge.misconceptions import (
     atan2_arguments_exchanged,
     atan_for_atan2,
@@ -19,225 +18,46 @@ from autograder.judge.misconceptions import (
     symbols_exchanged,
     transposed_rotation,
 )
-from autograder.reference.orientation import (
-    euler_angles,
-    euler_matrix,
-    rpy,
-    rpy_matrix,
+from autograder.judge.steps import replace_entry, substitute
+
+from .model import (
+    ALL,
+    BACK,
+    ENTRIES,
+    FORTH,
+    GYROSCOPE,
+    LEFT_AT_LOCK,
+    OUTER,
+    REVERSED_RPY,
+    RPY,
+    TRANSPOSED,
+    XYZ,
+    ZYZ,
+    add_to_roll,
+    change_atan2,
+    change_pitch_only,
+    change_t5_only,
+    draw_locked,
+    draw_rotation_and_sign,
+    draw_rotations,
+    e,
+    keep_one_of_bent,
+    list_rpy,
+    name_bend,
+    phi,
+    psi,
+    read_from,
+    rpy_residual,
+    spin,
+    wrist_angles,
+    zyz,
+    zyz_residual,
 )
-from dhkit.geometry import rotation, rotation_angle_between
-
-phi, theta, psi, e = sympy.symbols("phi theta psi e")
-R = sympy.Matrix(3, 3, lambda i, j: sympy.Symbol(f"r{i + 1}{j + 1}"))
-
-
-def turn(axis: str, angle) -> sympy.Matrix:
-    """Elementary rotation about a coordinate axis."""
-    i = "xyz".index(axis)
-    j, k = (i + 1) % 3, (i + 2) % 3
-    matrix = sympy.eye(3)
-    matrix[j, j] = matrix[k, k] = sympy.cos(angle)
-    matrix[k, j], matrix[j, k] = sympy.sin(angle), -sympy.sin(angle)
-    return matrix
-
-
-def turns(axes: str, *angles) -> sympy.Matrix:
-    """Rotation of three angles about moving axes."""
-    first, second, third = map(turn, axes, angles)
-    return first * second * third
-
 
 QUADRANT_LOST = (
     "**atan loses the quadrant.** A quotient cannot tell an angle from the one half a turn further; a function of two "
     "arguments can."
 )
-
-# ---------------------------------------------------------------- roll, pitch, yaw
-
-RPY = turns("zyx", psi, theta, phi)
-ENTRIES = [RPY[1, 1], RPY[1, 2]]
-REVERSED_RPY = turns("xyz", phi, theta, psi)
-GYROSCOPE = turns("zxz", psi, theta, phi)
-
-
-def orientation(mine) -> np.ndarray:
-    """The orientation of the student's own top."""
-    return euler_matrix(np.radians([mine.precession, mine.nutation, mine.spin]), "zxz", intrinsic=True)
-
-
-def both_rpy(mine) -> list:
-    return rpy(orientation(mine)).angles.tolist()
-
-
-def rpy_residual(q, mine):
-    return rotation_angle_between(rpy_matrix(*q.T), orientation(mine))
-
-
-def sign_in_the_pitch_only(found):
-    """As printed: the second triple has another pitch, and roll and yaw of the first one."""
-    first = found[0]
-    return [first, [first[0], np.pi - first[1], first[2]]]
-
-
-# The top spins on by 30 degrees; the notebook says so.
-FORTH, BACK = rotation("z", np.radians(30)), rotation("z", np.radians(-30))
-
-
-def spun(mine) -> list:
-    """One triple (roll, pitch, yaw) of the student's top, turned about its own axle."""
-    return rpy(orientation(mine) @ FORTH).angles[0].tolist()
-
-
-def read_from(change):
-    """A step on a triple (roll, pitch, yaw): `change` takes its rotation matrix, and the triple is read from the result."""
-    return lambda angles: rpy(change(rpy_matrix(*angles))).angles[0].tolist()
-
-
-def roll_grows(angles):
-    """30 degrees are added to the roll of the top as it was before."""
-    roll, pitch, yaw = rpy(rpy_matrix(*angles) @ BACK).angles[0]
-    return [roll + np.radians(30), pitch, yaw]
-
-
-def locked(rng: np.random.Generator) -> dict[str, float]:
-    """The four entries at a pitch of 90 degrees."""
-    matrix = rpy_matrix(rng.uniform(-3, 3), np.pi / 2, rng.uniform(-3, 3))
-    return {f"r{i + 1}{j + 1}": matrix[i, j] for i in (0, 1) for j in (1, 2)}
-
-
-LEFT_AT_LOCK = sympy.atan2(-R[0, 1], R[1, 1])
-
-# ---------------------------------------------------------------- any wrist, by its letters
-
-
-def wrist_angles(axes: str) -> list:
-    """[first, middle, third] for a set of moving axes, in the entries of R and the sign e of the root."""
-    i, j, k = ("xyz".index(axis) for axis in axes)
-    m = 3 - i - j
-    s = 1 if (j - i) % 3 == 1 else -1
-    if i == k:
-        root = sympy.sqrt(R[j, i] ** 2 + R[m, i] ** 2)
-        return [
-            sympy.atan2(e * R[j, i], -s * e * R[m, i]),
-            sympy.atan2(e * root, R[i, i]),
-            sympy.atan2(e * R[i, j], s * e * R[i, m]),
-        ]
-    root = sympy.sqrt(R[j, k] ** 2 + R[k, k] ** 2)
-    return [
-        sympy.atan2(-s * e * R[j, k], e * R[k, k]),
-        sympy.atan2(s * R[i, k], e * root),
-        sympy.atan2(-s * e * R[i, j], e * R[i, i]),
-    ]
-
-
-def rotation_and_sign(rng: np.random.Generator) -> dict[str, float]:
-    """The entries of a rotation, far from the locks of every set, and a sign."""
-    while True:
-        matrix = euler_matrix(rng.uniform(-np.pi, np.pi, 3), "zyx", intrinsic=True)
-        if np.abs(matrix).max() < 0.95:
-            break
-    found = {f"r{i + 1}{j + 1}": matrix[i, j] for i in range(3) for j in range(3)}
-    return found | {"e": rng.choice([-1.0, 1.0])}
-
-
-def in_each(change):
-    """A step on every entry of a vector."""
-    return lambda answer: [change(sympy.sympify(entry)) for entry in answer]
-
-
-def on_each_atan2(about, *places):
-    """The mistake about atan2, made in the entries at `places`."""
-
-    def step(answer):
-        return [about.steps[0](entry) if place in places else entry for place, entry in enumerate(answer)]
-
-    return step
-
-
-OUTER, ALL = (0, 2), (0, 1, 2)
-
-# ---------------------------------------------------------------- the spherical wrist as a function
-
-
-def zyz(rows):
-    """All (t4, t5, t6); at the lock one of each kind that students choose."""
-    found = euler_angles(np.array(rows), "zyz", intrinsic=True)
-    if not found.singular:
-        return found.angles.tolist()
-    return Family([found.family(0.0).tolist(), found.family(float(found.combination)).tolist()])
-
-
-def zyz_residual(q, rows):
-    return rotation_angle_between(euler_matrix(q, "zyz", intrinsic=True), np.array(rows))
-
-
-def probes(rng: np.random.Generator) -> list[list]:
-    """Rotations of the wrist: bent both ways, by round angles, stretched and folded back. Zeros are clean zeros."""
-    bent = [
-        [*rng.uniform(-3, 3, 1), sign * rng.uniform(0.1, 3.0), *rng.uniform(-3, 3, 1)]
-        for sign in (1, -1)
-        for _ in range(4)
-    ]
-    quarter = np.pi / 2
-    bent += [[0, quarter, 0], [quarter, quarter, -quarter], [np.pi, quarter, quarter], [0.7, -quarter, 0.0]]
-    stretched = [[0, 0, 0], [0.4, 0, 0.9], [2.0, 0, 2.5], [quarter, 0, quarter]]
-    folded = [[0, np.pi, 0], [0.4, np.pi, 0.9], [-2.0, np.pi, 1.1]]
-    matrices = euler_matrix(bent + stretched + folded, "zyz", intrinsic=True)
-    return [[(np.round(matrix, 12) + 0.0).tolist()] for matrix in matrices]
-
-
-def where(rows) -> str:
-    if np.hypot(rows[0][2], rows[1][2]) > 1e-9:
-        return "a bent wrist"
-    return "the stretched wrist (t5 = 0)" if rows[2][2] > 0 else "the wrist folded back (t5 = pi)"
-
-
-def unswitched(rows):
-    """The general formulas at the lock, too."""
-    matrix = np.array(rows)
-    found = []
-    for sign in (1, -1):
-        root = sign * np.hypot(matrix[0, 2], matrix[1, 2])
-        t4, t6 = (
-            np.arctan2(sign * matrix[1, 2], sign * matrix[0, 2]),
-            np.arctan2(sign * matrix[2, 1], -sign * matrix[2, 0]),
-        )
-        found.append([t4, np.arctan2(root, matrix[2, 2]), t6])
-    return found
-
-
-def with_results(change):
-    """Steps that change what the function returns for a bent wrist; at the lock it gives one triple, of either kind, or both."""
-
-    def step(chosen):
-        def mistaken(function, rows):
-            found = function(rows)
-            found = found.solutions[chosen] if isinstance(found, Family) else found
-            return change(found)
-
-        return lambda function: lambda rows: mistaken(function, rows)
-
-    return [step(chosen) for chosen in (slice(0, 1), slice(1, 2), slice(0, 2))]
-
-
-def sign_in_t5_only(found):
-    if len(found) < 2 or abs(np.sin(found[0][1])) < 1e-9:
-        return found
-    (t4, t5, t6), _ = found
-    return [[t4, t5, t6], [t4, -t5, t6]]
-
-
-def first_of_two(found):
-    return found[:1] if abs(np.sin(found[0][1])) > 1e-9 else found
-
-
-def second_of_two(found):
-    return found[-1:] if abs(np.sin(found[0][1])) > 1e-9 else found
-
-
-def wanted_in_degrees(found):
-    return np.degrees(found).tolist()
-
 
 QUESTIONS = (
     Question(
@@ -277,7 +97,7 @@ QUESTIONS = (
                 "row_and_column_exchanged",
                 0.5,
                 "**The second entry is r32.** The first index counts rows, the second one columns.",
-                lambda entries: [entries[0], RPY[2, 1]],
+                replace_entry(1, RPY[2, 1]),
             ),
             symbols_exchanged(
                 phi,
@@ -299,7 +119,7 @@ QUESTIONS = (
         reference=GYROSCOPE,
         mistakes=(
             misprint(
-                turns("xyz", psi, theta, phi),
+                XYZ,
                 "with body axes x, y, z the middle angle is not the tilt of the axle. Compare with the page on the three-axis wrist.",
                 share=0.4,
             ),
@@ -315,7 +135,7 @@ QUESTIONS = (
                 "nutation_about_y",
                 0.5,
                 "**The nutation turns about the wrong axis.** The line of nodes is where the body's x axis has come to lie.",
-                lambda _: turns("zyz", psi, theta, phi),
+                lambda _: ZYZ,
             ),
             transposed_rotation(),
         ),
@@ -347,11 +167,11 @@ QUESTIONS = (
     ),
     Question(
         "orientation.rpy_both",
-        reference=both_rpy,
+        reference=list_rpy,
         mistakes=(
             one_triple_only(),
             misprint(
-                sign_in_the_pitch_only,
+                change_pitch_only,
                 "roll and yaw come from pairs that carry the cosine of the pitch, and that has changed its sign. Put your second "
                 "triple back into the matrix: is it the same one?",
             ),
@@ -366,7 +186,7 @@ QUESTIONS = (
     ),
     Question(
         "orientation.spun",
-        reference=spun,
+        reference=spin,
         mistakes=(
             mistake(
                 "fixed_for_moving",
@@ -380,7 +200,7 @@ QUESTIONS = (
                 0.4,
                 "**Your top has turned about its own x axis.** More roll does just that. The letter of the proper rotation is the "
                 "letter of the roll here, but the axis is another one.",
-                roll_grows,
+                add_to_roll,
             ),
             mistake(
                 "transposed_rotation",
@@ -434,7 +254,7 @@ QUESTIONS = (
             atan2_arguments_exchanged(),
         ),
         angles=(0,),
-        draw=locked,
+        draw=draw_locked,
     ),
     Question(
         "orientation.wrist",
@@ -449,15 +269,15 @@ QUESTIONS = (
                 "atan_for_atan2",
                 0.5,
                 QUADRANT_LOST,
-                on_each_atan2(atan_for_atan2(), *OUTER),
-                on_each_atan2(atan_for_atan2(), *ALL),
+                change_atan2(atan_for_atan2(), *OUTER),
+                change_atan2(atan_for_atan2(), *ALL),
             ),
             mistake(
                 "atan2_arguments_exchanged",
                 0.4,
                 atan2_arguments_exchanged().feedback,
-                on_each_atan2(atan2_arguments_exchanged(), *ALL),
-                on_each_atan2(atan2_arguments_exchanged(), *OUTER),
+                change_atan2(atan2_arguments_exchanged(), *ALL),
+                change_atan2(atan2_arguments_exchanged(), *OUTER),
             ),
             extrinsic_for_intrinsic(
                 feedback="**First and third angle have changed places.** Your wrist is {wrist}, axes that move: the first letter is the "
@@ -467,40 +287,32 @@ QUESTIONS = (
                 "transposed_rotation",
                 0.4,
                 "**Rows and columns are exchanged.** These are the angles of the transposed matrix: r12 stands in row 1, column 2.",
-                in_each(
-                    lambda entry: entry.subs({R[i, j]: R[j, i] for i in range(3) for j in range(3)}, simultaneous=True)
-                ),
+                substitute(TRANSPOSED),
             ),
         ),
         partial=0.6,
         angles=ALL,
-        draw=rotation_and_sign,
+        draw=draw_rotation_and_sign,
     ),
     Question(
         "orientation.zyz",
         reference=zyz,
         mistakes=(
-            mistake(
-                "one_triple_only",
-                0.5,
-                one_triple_only().feedback,
-                *with_results(first_of_two),
-                *with_results(second_of_two),
-            ),
-            lock_not_switched(unswitched),
+            one_triple_only(steps=(keep_one_of_bent(0), keep_one_of_bent(-1))),
+            lock_not_switched({"switched": False}),
             mistake(
                 "slide_misprint",
                 0.5,
                 "**As on the slide, the sign of the root acts on the middle angle only.** Put your second triple back into the matrix: "
                 "is it the same one?",
-                *with_results(sign_in_t5_only),
+                change_t5_only,
             ),
-            mistake("degrees", 0.4, degrees().feedback, *with_results(wanted_in_degrees), turn=360),
+            degrees(0, 1, 2),
         ),
         angles=(0, 1, 2),
         tolerance=1e-4,
-        probe=probes,
-        case=where,
+        probe=draw_rotations,
+        case=name_bend,
         residual=zyz_residual,
     ),
 )

@@ -7,130 +7,34 @@ import sympy
 
 from autograder.judge import Question, mistake
 from autograder.judge.misconceptions import degrees, option, symbol_negated
-from autograder.reference.parallel import ThreeRPR, ThreeRRR
+from autograder.judge.steps import in_each_row, negate, substitute
 from dhkit.geometry import wrap
 
-x, y, phi, u, v, q1, q2, c, L = sympy.symbols("x y phi u v q1 q2 c L")
-
-BASE = ((0.0, 0.0), (1.0, 0.0), (0.3, 0.7))
-PLATFORM = ((-0.3, -0.3), (0.4, -0.3), (0.2, 0.4))
-BARS = (0.4, 0.35)
-ROBOT = ThreeRPR(BASE, PLATFORM)
-TWO_BARS = ThreeRRR(BASE, PLATFORM, BARS[:1] * 3, BARS[1:] * 3)
-
-TURN = sympy.Matrix([[sympy.cos(phi), -sympy.sin(phi)], [sympy.sin(phi), sympy.cos(phi)]])
-JOINT = list(sympy.Matrix([x, y]) + TURN * sympy.Matrix([u, v]))
-GAP = TURN * sympy.Matrix([c, 0]) - sympy.Matrix([L, 0])  # d of the platform side c and the base side L
-GAP_SQUARED = sympy.simplify(GAP.dot(GAP))
-
-HEIGHT = 0.7  # of P in the question about the singular pose, phi = 0
-
-
-def lengths_of(mine) -> list[float]:
-    return [mine.q1, mine.q2, mine.q3]
-
-
-def pose_of(mine) -> list[float]:
-    return [mine.x, mine.y, mine.phi]
-
-
-def leg_lengths(x, y, phi):
-    return ROBOT.inverse([x, y, phi]).tolist()
-
-
-def jacobian(x, y, phi):
-    return ROBOT.jacobian([x, y, phi]).tolist()
-
-
-def singular_x() -> float:
-    """x of P for phi = 0, y = `HEIGHT`, between 0 and 1, by halving the interval."""
-    low, high = 0.0, 1.0
-    sign = np.sign(np.linalg.det(jacobian(low, HEIGHT, 0.0)))
-    for _ in range(60):
-        middle = (low + high) / 2
-        inside = np.sign(np.linalg.det(jacobian(middle, HEIGHT, 0.0))) == sign
-        low, high = (middle, high) if inside else (low, middle)
-    return low
-
-
-SINGULAR_X = singular_x()
-
-
-def meeting_x() -> float:
-    """x of the point where the leg lines of that pose meet."""
-    first, second = (np.subtract((SINGULAR_X, HEIGHT), a) + b for a, b in list(zip(BASE, PLATFORM))[:2])
-    along, _ = np.linalg.solve(np.column_stack([first, -second]), np.subtract(BASE[1], BASE[0]))
-    return float(along * first[0])
-
-
-# ---------------------------------------------------------------- how far solutions miss
-
-
-def mode_residual(q, mine):
-    """Largest error of a leg length, for poses (k, 3)."""
-    with np.errstate(over="ignore"):
-        return np.abs(ROBOT.inverse(q) - lengths_of(mine)).max(axis=1)
-
-
-def posture_residual(q, mine):
-    """Largest distance from the end of a leg to its joint on the platform, for joint values (k, 6)."""
-    drive, elbow = q[:, ::2], q[:, 1::2]
-    ends = np.add(BASE, BARS[0] * _along(drive) + BARS[1] * _along(drive + elbow))
-    px, py, turn = pose_of(mine)
-    joints = (px, py) + np.array(PLATFORM) @ np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
-    return np.linalg.norm(ends - joints, axis=-1).max(axis=1)
-
-
-def _along(angles):
-    return np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-
-
-# ---------------------------------------------------------------- wrong steps
-
-
-def at_joint_1(modes):
-    """x, y of B1 in the place of P."""
-    bx, by = PLATFORM[0]
-    return [
-        [px + bx * np.cos(turn) - by * np.sin(turn), py + bx * np.sin(turn) + by * np.cos(turn), turn]
-        for px, py, turn in modes
-    ]
-
-
-def about_base_origin(rows, x, y):
-    """The third column with arms counted from the origin of the base instead of P."""
-    return [[ux, uy, turning + x * uy - y * ux] for ux, uy, turning in rows]
-
-
-def elbows_from_x0(postures):
-    """Each elbow angle measured from the x axis instead of the driven bar."""
-    return [[value + (row[k - 1] if k % 2 else 0) for k, value in enumerate(row)] for row in postures]
-
-
-def unturned_arms(x, y, phi):
-    rows = np.array(jacobian(x, y, phi))
-    rows[:, 2] = [bx * uy - by * ux for (bx, by), (ux, uy) in zip(PLATFORM, rows[:, :2])]
-    return rows.tolist()
-
-
-def without_anchors(x, y, phi):
-    return np.linalg.norm(np.array(leg_vectors(x, y, phi)) + BASE, axis=1).tolist()
-
-
-def leg_vectors(x, y, phi):
-    cosine, sine = np.cos(phi), np.sin(phi)
-    return [
-        (x + cosine * bx - sine * by - ax, y + sine * bx + cosine * by - ay)
-        for (bx, by), (ax, ay) in zip(PLATFORM, BASE)
-    ]
-
-
-def probes(rng: np.random.Generator) -> list[list[float]]:
-    """Poses: random ones, then round angles."""
-    draws = [[*rng.uniform(0.2, 0.9, 2), rng.uniform(-3, 3)] for _ in range(8)]
-    round_angles = [[0.5, 0.6, 0.0], [0.4, 0.7, np.pi / 2], [0.6, 0.5, np.pi], [0.55, 0.45, -np.pi / 2]]
-    return [[float(value) for value in args] for args in draws + round_angles]
-
+from .model import (
+    BASE,
+    GAP_SQUARED,
+    JOINT,
+    MEETING_X,
+    MOVED_BEFORE_TURNED,
+    PLATFORM,
+    SINGULAR_X,
+    count_elbows_from_x0,
+    draw_poses,
+    jacobian,
+    leg_lengths,
+    list_modes,
+    list_postures,
+    mode_residual,
+    move_to_joint_1,
+    phi,
+    posture_residual,
+    q1,
+    q2,
+    u,
+    v,
+    x,
+    y,
+)
 
 BACKWARDS = (
     "**The platform is turned the other way.** Draw it with a small positive phi: on which side of x0 does x_P then lie, "
@@ -149,7 +53,7 @@ QUESTIONS = (
                 "moved_before_turned",
                 0.4,
                 "**P is turned, too.** The platform turns about P, so P itself stays: which vector does the rotation act on?",
-                lambda _: list(TURN * sympy.Matrix([x + u, y + v])),
+                lambda _: MOVED_BEFORE_TURNED,
             ),
         ),
     ),
@@ -161,23 +65,23 @@ QUESTIONS = (
                 "turned_backwards",
                 0.5,
                 BACKWARDS + " (If your points are rows: which way does `b @ R` turn them?)",
-                lambda legs: lambda x, y, phi: legs(x, y, -phi),
+                wrong={"turn": -1},
             ),
-            mistake("platform_not_turned", 0.3, NOT_TURNED, lambda legs: lambda x, y, phi: legs(x, y, 0.0)),
+            mistake("platform_not_turned", 0.3, NOT_TURNED, wrong={"turn": 0}),
             mistake(
                 "squared_lengths",
                 0.6,
                 "**These are the squares of the lengths.** The sum of two squares is not yet the distance.",
-                lambda legs: lambda *pose: np.square(legs(*pose)).tolist(),
+                lambda lengths: np.square(lengths).tolist(),
             ),
             mistake(
                 "anchors_left_out",
                 0.4,
                 "**The anchors are missing.** You measure from the origin of the base; only leg 1 starts there.",
-                lambda _: without_anchors,
+                wrong={"anchored": False},
             ),
         ),
-        probe=probes,
+        probe=draw_poses,
     ),
     Question(
         "parallel_robots.w2",
@@ -194,7 +98,7 @@ QUESTIONS = (
                 "sign_of_cosine",
                 0.5,
                 "**The term with cos(phi) has the wrong sign.** Check with phi = 0 and c = L: then d vanishes, and its square must, too.",
-                lambda w: w.subs(phi, sympy.pi - phi),
+                substitute({phi: sympy.pi - phi}),
             ),
             mistake(
                 "leg_1_not_subtracted",
@@ -206,7 +110,7 @@ QUESTIONS = (
                 "mixed_term_missing",
                 0.4,
                 "**The square of a difference has three terms.** d is a difference of two vectors: their product belongs to its square.",
-                lambda w: w.subs(sympy.cos(phi), 0),
+                substitute({sympy.cos(phi): 0}),
             ),
         ),
     ),
@@ -235,7 +139,7 @@ QUESTIONS = (
     ),
     Question(
         "parallel_robots.modes",
-        reference=lambda mine: ROBOT.forward(lengths_of(mine)).listed().tolist(),
+        reference=list_modes,
         mistakes=(
             mistake(
                 "one_mode_only",
@@ -254,7 +158,7 @@ QUESTIONS = (
                 "joint_1_for_p",
                 0.6,
                 "**x and y are those of the joint B1.** The pose asks for P: one turned vector is missing on the way from B1 to P.",
-                at_joint_1,
+                move_to_joint_1,
             ),
             degrees(2),
         ),
@@ -272,29 +176,29 @@ QUESTIONS = (
                 0.6,
                 "**The rows are not divided by the length of their leg.** u is a unit vector. (The determinant vanishes at the same "
                 "poses, but its rows are no rates of lengths.)",
-                lambda J: lambda *pose: (np.array(J(*pose)) * np.array(leg_lengths(*pose))[:, None]).tolist(),
+                wrong={"unit": False},
             ),
             mistake(
                 "arms_from_the_origin",
                 0.5,
                 "**The arms are counted from the origin of the base.** The platform turns about P: r goes from P to the joint.",
-                lambda J: lambda x, y, phi: about_base_origin(J(x, y, phi), x, y),
+                wrong={"centre": "origin"},
             ),
             mistake(
                 "sign_of_turning",
                 0.6,
                 "**The third column has the wrong sign.** r x u, not u x r: turn the platform a little in the positive sense and see "
                 "whether the leg gets longer.",
-                lambda J: lambda *pose: [[ux, uy, -turning] for ux, uy, turning in J(*pose)],
+                in_each_row(negate(2)),
             ),
             mistake(
                 "arms_not_turned",
                 0.4,
                 "**The arms are not turned with the platform.** b is given along the axes of the platform, u along those of the base.",
-                lambda _: unturned_arms,
+                wrong={"turned": False},
             ),
         ),
-        probe=probes,
+        probe=draw_poses,
     ),
     Question(
         "parallel_robots.singular",
@@ -304,7 +208,7 @@ QUESTIONS = (
                 "meeting_point_for_p",
                 0.5,
                 "**This is where the leg lines meet.** The question asks for the platform's own P in that pose.",
-                lambda _: meeting_x(),
+                lambda _: MEETING_X,
             ),
             mistake(
                 "joint_for_p",
@@ -324,7 +228,7 @@ QUESTIONS = (
     ),
     Question(
         "parallel_robots.postures",
-        reference=lambda mine: TWO_BARS.inverse(pose_of(mine)).listed().tolist(),
+        reference=list_postures,
         mistakes=(
             mistake(
                 "one_posture_only",
@@ -343,7 +247,7 @@ QUESTIONS = (
                 "elbows_from_x0",
                 0.5,
                 "**The elbow angles are measured from the x axis.** The question counts them from the driven bar, zero for a stretched leg.",
-                elbows_from_x0,
+                count_elbows_from_x0,
             ),
             degrees(*range(6)),
         ),

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from functools import lru_cache
-
 import numpy as np
-import sympy
 
 from autograder.judge import Follow, Question, following, mistake
 from autograder.judge.misconceptions import (
@@ -28,76 +24,27 @@ from autograder.judge.misconceptions import (
     transposed_rotation,
     with_first_theta1,
 )
-from autograder.reference import DHTable, robots
+from autograder.judge.steps import in_each_row, negate
 
-t1, t2, t4, a2, a3, d2 = sympy.symbols("t1 t2 t4 a2 a3 d2")
-GENERAL = sympy.symbols("a alpha d theta")
-
-TABLE = robots.SCARA.table
-ROWS = [[row.sigma, *row.parameters] for row in TABLE.rows]
-TRANSFORMS = TABLE.transforms()
-U0, U1, *_ = TABLE.recursion()
-MODEL = [*U0[:3, 3], t1 + t2 + t4]
-
-D2_IS_A_DEPTH = (
-    "**The sign of d2 is turned.** d2 counts downwards, like the depth of the quill, while Z3 points upwards. The "
-    "slides print the table twice, once with each sign: only one of them goes with their matrices."
+from .model import (
+    ABSOLUTE_MODEL,
+    D2_IS_A_DEPTH,
+    GENERAL,
+    GENERAL_MATRIX,
+    MODEL,
+    ROWS,
+    TRANSFORMS,
+    U0,
+    U1,
+    draw_arguments,
+    forward,
+    list_postures,
+    quill_turned,
+    residual,
+    share_t1_and_heading,
+    t1,
+    t2,
 )
-
-
-@lru_cache
-def forward():
-    """The direct model as a function of numbers: forward(t1, t2, d2, t4, a2, a3) -> (4, 4) array."""
-    return sympy.lambdify([t1, t2, d2, t4, a2, a3], U0)
-
-
-def probes(rng: np.random.Generator) -> list[list[float]]:
-    """Argument lists for forward: random ones, then round angles."""
-    draws = [
-        [*rng.uniform(-3, 3, 2), rng.uniform(0.05, 0.3), rng.uniform(-3, 3), *rng.uniform(0.2, 0.6, 2)]
-        for _ in range(8)
-    ]
-    round_angles = [
-        [np.pi / 2, 0.0, 0.1, np.pi, 0.4, 0.3],
-        [0.0, -np.pi / 2, 0.2, np.pi / 4, 0.25, 0.35],
-        [np.pi, np.pi, 0.0, 0.0, 0.4, 0.4],
-    ]
-    return [[float(value) for value in args] for args in draws + round_angles]
-
-
-def own_pose(mine):
-    """The student's (a2, a3) and the pose (x, y, z, theta) to reach, metres and radians."""
-    return [mine.a2, mine.a3], [mine.x, mine.y, mine.z, np.radians(mine.heading)]
-
-
-def postures(mine):
-    """All (t1, t2, d2, t4) that reach the student's pose."""
-    lengths, pose = own_pose(mine)
-    return robots.scara(*lengths).inverse(pose).q.tolist()
-
-
-def with_first_t1_and_heading(solutions):
-    """Both t1 alike, and each t4 made up from them so that the heading is right."""
-    q1 = solutions[0][0]
-    return [[q1, q2, depth, q4 + first - q1] for first, q2, depth, q4 in solutions]
-
-
-def residual(q, mine):
-    """How far the hand is from the student's pose, (k,), for joint values (k, 4)."""
-    lengths, pose = own_pose(mine)
-    hands = np.array([forward()(q1, q2, depth, q4, *lengths) for q1, q2, depth, q4 in q])
-    heading = np.arctan2(hands[:, 1, 0], hands[:, 0, 0]) - pose[3]
-    return np.linalg.norm(hands[:, :3, 3] - pose[:3], axis=1) + np.abs((heading + np.pi) % (2 * np.pi) - np.pi)
-
-
-def with_turned_d2(solutions):
-    return [[*solution[:2], -solution[2], solution[3]] for solution in solutions]
-
-
-def turned_quill(share=0.7):
-    """The answer with d2 counted upwards, as in the second print of the table."""
-    return symbol_negated(d2, "sign_of_d2", D2_IS_A_DEPTH, share)
-
 
 QUESTIONS = (
     Question(
@@ -114,7 +61,7 @@ QUESTIONS = (
     ),
     Question(
         "scara.dhm",
-        reference=DHTable([(0, *GENERAL)], joints=GENERAL[3:]).transforms()[0],
+        reference=GENERAL_MATRIX,
         mistakes=(
             classic_matrix(GENERAL),
             symbol_negated(
@@ -130,7 +77,7 @@ QUESTIONS = (
         "scara.U1",
         reference=U1,
         mistakes=(
-            turned_quill(),
+            quill_turned(),
             reversed_product(*TRANSFORMS[1:]),
             mistake(
                 "one_matrix_only",
@@ -147,7 +94,7 @@ QUESTIONS = (
         "scara.T04",
         reference=U0,
         mistakes=(
-            turned_quill(),
+            quill_turned(),
             reversed_product(*TRANSFORMS),
             angles_subtracted(t2),
             classic_matrix(*(row[1:] for row in ROWS), note="classic_matrices"),
@@ -163,11 +110,9 @@ QUESTIONS = (
         "scara.model",
         reference=MODEL,
         mistakes=(
-            turned_quill(),
+            quill_turned(),
             angles_subtracted(t2),
-            angle_not_summed(
-                [a2 * sympy.cos(t1) + a3 * sympy.cos(t2), a2 * sympy.sin(t1) + a3 * sympy.sin(t2), *MODEL[2:]],
-            ),
+            angle_not_summed(ABSOLUTE_MODEL),
             mistake(
                 "theta4_left_out",
                 0.7,
@@ -205,19 +150,17 @@ QUESTIONS = (
     ),
     Question(
         "scara.forward",
-        reference=forward(),
+        reference=forward,
         mistakes=(
-            mistake(
-                "sign_of_d2", 0.7, D2_IS_A_DEPTH, lambda model: lambda t1, t2, d2, *rest: model(t1, t2, -d2, *rest)
-            ),
-            arguments_in_degrees(0, 1, 3),
-            replace(angles_subtracted(), steps=(lambda model: lambda t1, t2, *rest: model(t1, -t2, *rest),)),
+            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, wrong={"depth": -1}),
+            arguments_in_degrees({"unit": np.pi / 180}),
+            angles_subtracted(wrong={"elbow": -1}),
         ),
-        probe=probes,
+        probe=draw_arguments,
     ),
     Question(
         "scara.postures",
-        reference=postures,
+        reference=list_postures,
         mistakes=(
             posture_missing(),
             mistake(
@@ -226,8 +169,8 @@ QUESTIONS = (
                 "**Both postures share one t1.** Each t2 has a t1 of its own: put your second solution into the "
                 "direct model and see where the hand goes.",
                 *with_first_theta1().steps,
-                with_first_t1_and_heading,
-                lambda solutions: with_first_t1_and_heading(solutions[::-1]),
+                share_t1_and_heading,
+                lambda postures: share_t1_and_heading(postures[::-1]),
             ),
             with_first_theta1(
                 3,
@@ -235,7 +178,7 @@ QUESTIONS = (
                 share=0.6,
                 feedback="**Both postures share one t4.** The heading is the sum of three angles, and two of them have changed.",
             ),
-            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, with_turned_d2),
+            mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, in_each_row(negate(2))),
             degrees(0, 1, 3),
         ),
         angles=(0, 1, 3),

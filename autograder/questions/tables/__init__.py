@@ -2,188 +2,36 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 import sympy
 
 from autograder.judge import Question, mistake
-from autograder.judge.misconceptions import (
-    arguments_in_degrees,
-    misprint,
-    offset_missing,
-    sign_of,
+from autograder.judge.misconceptions import arguments_in_degrees, misprint, offset_missing, sign_of
+from autograder.judge.steps import change_cell, change_entry, negate, replace_entry
+
+from .model import (
+    CLASSIC,
+    HALF,
+    MIXED,
+    MODIFIED,
+    PRINTED_TABLES,
+    PUMA_PRINTED_ROW,
+    PUMA_ROW,
+    RX90_CLASSIC,
+    WRIST,
+    WRIST_PRINTED,
+    arm,
+    draw_arms,
+    draw_tables,
+    freedoms,
+    gripper,
+    leave_alpha,
+    move_x_pairs,
+    move_z_pairs,
+    name_arm,
+    name_table,
+    planar,
 )
-from autograder.reference import robots
-from dhkit.geometry import modified_dh
-
-HALF = sympy.pi / 2
-MODIFIED, CLASSIC, MIXED = 1, 2, 3
-PRINTED_TABLES = [MODIFIED, CLASSIC, MODIFIED, CLASSIC, MIXED]  # planar 3R, planar 2R, elbow arm, wrist, PUMA-like arm
-
-
-def with_entry(index, value):
-    return lambda found: [*found[:index], value, *found[index + 1 :]]
-
-
-def rows_of(table):
-    return [[row.sigma, *row.parameters] for row in table.rows]
-
-
-# ---------------------------------------------------------------- planar arms
-
-
-def planar(lengths, angles):
-    """Tip and heading of a planar arm with any number of joints."""
-    tip = robots.planar(lengths).forward(angles)
-    return [*tip[:2, 3].tolist(), float(np.sum(angles))]
-
-
-def arms(rng: np.random.Generator) -> list[list]:
-    """Argument lists: arms with one to six links."""
-    counts = (1, 2, 2, 3, 3, 4, 6)
-    return [[rng.uniform(0.1, 0.6, n).round(3).tolist(), rng.uniform(-2.5, 2.5, n).round(3).tolist()] for n in counts]
-
-
-def absolute_angles(lengths, angles):
-    x, y = np.array(lengths) @ np.cos(angles), np.array(lengths) @ np.sin(angles)
-    return [x, y, float(np.sum(angles))]
-
-
-def last_angle_as_heading(function):
-    return lambda lengths, angles: [*function(lengths, angles)[:2], angles[-1]]
-
-
-def without_last_link(function):
-    return lambda lengths, angles: function([*lengths[:-1], 0.0], angles)
-
-
-# ---------------------------------------------------------------- RX-90 in classic rows
-
-
-RX90_CLASSIC = [list(row.parameters) for row in robots.RX90.table.to_classic().rows]
-
-
-def x_pairs_moved(rows, places):
-    """The columns a and alpha moved down, or up where `places` is negative; zeros follow."""
-    pairs = [row[:2] for row in rows]
-    pairs = [[0, 0]] * places + pairs[: len(pairs) - places] if places > 0 else pairs[-places:] + [[0, 0]] * -places
-    return [[*pair, *row[2:]] for pair, row in zip(pairs, rows)]
-
-
-def alpha_left(rows):
-    """Only a is moved: alpha still stands where the modified table has it."""
-    modified = x_pairs_moved(rows, 1)
-    return [[row[0], below[1], *row[2:]] for row, below in zip(rows, modified)]
-
-
-def z_pairs_moved(rows):
-    """d and theta are moved up as well."""
-    pairs = [row[2:] for row in rows[1:]] + [[0, 0]]
-    return [[*row[:2], *pair] for row, pair in zip(rows, pairs)]
-
-
-# ---------------------------------------------------------------- the wrist and the PUMA-like arm
-
-
-WRIST = rows_of(robots.SPHERICAL_WRIST.table)
-WRIST_PRINTED = [[0, 0, -HALF, 0, WRIST[0][4]], [0, 0, HALF, 0, WRIST[1][4]], [0, 0, 0, *WRIST[2][3:]]]
-PUMA_ROW = rows_of(robots.PUMA.table)[5]
-PUMA_PRINTED_ROW = rows_of(robots.PUMA_PRINTED.table)[5]
-
-
-def with_cell(rows, row, column, value):
-    return [
-        [value if (i, j) == (row, column) else cell for j, cell in enumerate(cells)] for i, cells in enumerate(rows)
-    ]
-
-
-# ---------------------------------------------------------------- freedoms of a table of numbers
-
-
-def screws(rows, *, slides=True, early=False, about_tip=False):
-    """Columns (Z_i, O_i x Z_i) of turning joints and (0, Z_i) of sliding ones, shape (6, n)."""
-    rows = np.array(rows, dtype=float)
-    frames = [np.eye(4)]
-    for step in modified_dh(*rows.T[1:]):
-        frames.append(frames[-1] @ step)
-    centre = frames[-1][:3, 3] if about_tip else np.zeros(3)
-    columns = []
-    for row, frame in zip(rows, frames if early else frames[1:]):
-        axis, origin = frame[:3, 2], frame[:3, 3]
-        sliding = slides and row[0] == 1
-        columns.append(np.concatenate([0 * axis, axis] if sliding else [axis, np.cross(origin - centre, axis)]))
-    return np.transpose(columns)
-
-
-def freedoms(rows, part=slice(None), **how) -> int:
-    """The rank of the screws, or of a part of their six numbers."""
-    return int(np.linalg.matrix_rank(screws(rows, **how)[part], tol=1e-6))
-
-
-def robots_at_random(rng: np.random.Generator) -> list[list]:
-    """Argument lists: tables of robots at random postures, with sliding joints, with two joints on one line, and sound ones."""
-    tables = [
-        robots.RX90,
-        robots.PUMA,
-        robots.PUMA_PRINTED,
-        robots.SCARA,
-        robots.SPHERICAL_WRIST,
-        robots.PLANAR_3R,
-        robots.KR210,
-    ]
-    found = []
-    for robot in tables:
-        table = robot.table.at(robot.table.values)
-        joints = {joint: rng.uniform(0.2, 1.2) for joint in table.joints}
-        found.append(
-            [[float(cell) for cell in (row.sigma, *(p.subs(joints) for p in row.parameters))] for row in table.rows]
-        )
-    a, d, t = rng.uniform(0.2, 0.6, 3)
-    half = np.pi / 2
-    found.append([[1, 0, 0, d, 0], [1, 0, half, a, half], [1, 0, half, t, 0]])  # a gantry
-    found.append([[0, 0, 0, 0, t], [1, 0, 0, d, 0], [0, a, 0, 0, t], [1, 0, 0, a, 0]])  # two parallel slides
-    found.append([[0, 0, -half, 0, t], [0, 0, half, 0, a], [0, 0, 0, d, t]])  # the wrist as printed, read as modified
-    return [[[[round(cell, 6) for cell in row] for row in rows]] for rows in found]
-
-
-def kind_of_table(rows) -> str:
-    if any(row[0] == 1 for row in rows):
-        return "tables with a sliding joint"
-    return (
-        "sound tables of turning joints"
-        if freedoms(rows) == min(len(rows), 6)
-        else "tables with two joints on one line"
-    )
-
-
-# ---------------------------------------------------------------- a table from a list of joint origins
-
-
-KR210 = rows_of(robots.KR210.table)
-
-
-def arm(
-    mine,
-    d1=lambda origins: origins.z1 + origins.z2,
-    a1=lambda origins: origins.x2,
-    d4=lambda origins: origins.x4 + origins.x5,
-    d6=lambda origins: 0,
-) -> list[list]:
-    """The rows of an arm like the KR210; each keyword takes a length from the student's list of joint origins."""
-    lengths = {"d1": d1(mine), "a1": a1(mine), "a2": mine.z3, "a3": mine.z4, "d4": d4(mine)}
-    rows = [[lengths.get(str(cell), cell) for cell in row] for row in KR210]
-    rows[5][3] = d6(mine)
-    return rows
-
-
-def gripper(mine, turn=((0.0, 0, 1), (0, -1, 0), (1, 0, 0)), ahead=(0, 0, 1), rows=("x6", "xg")) -> list[list]:
-    """Transform from frame 6 to the gripper as nested lists; with the defaults right."""
-    matrix = np.eye(4)
-    matrix[:3, :3] = turn
-    matrix[:3, 3] = np.array(ahead) * sum(mine[row] for row in rows)
-    return [[int(cell) if cell == int(cell) else float(cell) for cell in row] for row in matrix]
-
 
 QUESTIONS = (
     Question(
@@ -201,32 +49,32 @@ QUESTIONS = (
                 "classic_2r_not_seen",
                 0.6,
                 "**The planar 2R is taken at its word.** Then L1 is a part of the base, and theta2 moves nothing.",
-                with_entry(1, MODIFIED),
-                with_entry(1, MIXED),
+                replace_entry(1, MODIFIED),
+                replace_entry(1, MIXED),
             ),
             mistake(
                 "tool_row_taken_for_classic",
                 0.6,
                 "**A length in the last row does not make a table classic.** The elbow arm has one row more than joints: its last row, "
                 "without a variable, is the tool.",
-                with_entry(2, CLASSIC),
-                with_entry(2, MIXED),
+                replace_entry(2, CLASSIC),
+                replace_entry(2, MIXED),
             ),
             mistake(
                 "classic_wrist_not_seen",
                 0.6,
                 "**Look at the last row of the wrist**: as a modified row it puts axes 5 and 6 on one line. Read the rows the other "
                 "way.",
-                with_entry(3, MODIFIED),
-                with_entry(3, MIXED),
+                replace_entry(3, MODIFIED),
+                replace_entry(3, MIXED),
             ),
             mistake(
                 "mixed_table_not_seen",
                 0.6,
                 "**The PUMA-like table is of one convention only in part.** Test rows 1 and 6 in both readings: each time one of them "
                 "puts two axes on one line.",
-                with_entry(4, MODIFIED),
-                with_entry(4, CLASSIC),
+                replace_entry(4, MODIFIED),
+                replace_entry(4, CLASSIC),
             ),
         ),
     ),
@@ -238,38 +86,26 @@ QUESTIONS = (
                 "angle_not_summed",
                 0.4,
                 "**The angles are measured from the x axis.** Each of them is measured from the link before it.",
-                lambda _: absolute_angles,
-                lambda _: last_angle_as_heading(absolute_angles),
+                wrong=[{"base": True}, {"base": True, "heading": "last"}],
             ),
             mistake(
                 "last_link_missing",
                 0.5,
                 "**The last link is missing.** Your point is the last joint; the tip is one length further on. (The slide's table of the 3R "
                 "stops there, too: it has no tool row.)",
-                without_last_link,
+                wrong={"last_link": False},
             ),
             mistake(
                 "heading_not_summed",
                 0.6,
                 "**The heading is the last joint angle only.** It is measured from the link before it, which has turned as well.",
-                last_angle_as_heading,
+                wrong={"heading": "last"},
             ),
-            mistake(
-                "degrees",
-                0.4,
-                arguments_in_degrees().feedback,
-                lambda function: lambda lengths, angles: function(lengths, np.radians(angles).tolist()),
-                lambda function: (
-                    lambda lengths, angles: [
-                        *function(lengths, np.radians(angles).tolist())[:2],
-                        function(lengths, angles)[2],
-                    ]
-                ),
-            ),
+            arguments_in_degrees({"unit": np.pi / 180}, {"unit": np.pi / 180, "heading_unit": 1.0}),
         ),
         angles=(2,),
-        probe=arms,
-        case=lambda lengths, angles: "arms with one or two links" if len(lengths) < 3 else "arms with more links",
+        probe=draw_arms,
+        case=name_arm,
     ),
     Question(
         "tables.classic_rows",
@@ -279,25 +115,25 @@ QUESTIONS = (
                 "modified_rows_copied",
                 0.2,
                 "**These are the modified rows again.** In a classic row a and alpha lead from the row's own joint to the next one.",
-                partial(x_pairs_moved, places=1),
+                move_x_pairs(1),
             ),
             mistake(
                 "moved_the_wrong_way",
                 0.4,
                 "**The columns a and alpha were moved the wrong way.** Down is the way from classic to modified.",
-                partial(x_pairs_moved, places=2),
+                move_x_pairs(2),
             ),
             mistake(
                 "alpha_left_behind",
                 0.5,
                 "**Column a was moved, column alpha was not.** The two are one pair, along and about the same X axis.",
-                alpha_left,
+                leave_alpha,
             ),
             mistake(
                 "whole_rows_moved",
                 0.3,
                 "**d and theta were moved as well.** They belong to the joint of their row in both conventions, and stay.",
-                z_pairs_moved,
+                move_z_pairs,
             ),
         ),
         partial=0.6,
@@ -315,15 +151,15 @@ QUESTIONS = (
                 "twist_of_the_arm_kept",
                 0.6,
                 "**A twist stands before joint 4.** It would lead from axis 3 of an arm to axis 4; here Z3 lies on axis 4 already.",
-                lambda rows: with_cell(rows, 0, 2, -HALF),
-                lambda rows: with_cell(rows, 0, 2, HALF),
+                change_cell(1, "alpha", lambda _: -HALF),
+                change_cell(1, "alpha", lambda _: HALF),
             ),
             sign_of("alpha", 2, 3),
             mistake(
                 "hand_length_missing",
                 0.6,
                 "**d6 is missing.** The printed product has it in the last column.",
-                lambda rows: with_cell(rows, 2, 3, 0),
+                change_cell(3, "d", lambda _: 0),
             ),
         ),
         partial=0.6,
@@ -333,7 +169,7 @@ QUESTIONS = (
         reference=PUMA_ROW,
         mistakes=(
             misprint(
-                lambda row: [*row[:2], PUMA_PRINTED_ROW[2], *row[3:]],
+                replace_entry(2, PUMA_PRINTED_ROW[2]),
                 "it is the last row of a classic table. In a modified one it puts axes 5 and 6 on one line.",
                 share=0.1,
             ),
@@ -342,13 +178,13 @@ QUESTIONS = (
                 0.6,
                 "**With this twist the hand points back into the forearm.** The rank is right, the sense is not: at theta5 = 0, which way "
                 "does Z6 point compared with Z4?",
-                lambda row: [*row[:2], -row[2], *row[3:]],
+                negate(2),
             ),
             mistake(
                 "degrees",
                 0.6,
                 "**The twist is in degrees.** Here it is asked for in radians.",
-                lambda row: [*row[:2], row[2] * 180 / sympy.pi, *row[3:]],
+                change_entry(2, lambda alpha: alpha * 180 / sympy.pi),
             ),
         ),
         partial=0.4,
@@ -362,34 +198,31 @@ QUESTIONS = (
                 "joints_counted",
                 0.1,
                 "**Your function counts the joints.** Two joints on one line make one motion: the rank of the columns tells.",
-                lambda _: len,
-                lambda _: lambda rows: min(len(rows), 6),
+                wrong=[{"count": "joints"}, {"count": "joints up to six"}],
             ),
             mistake(
                 "prismatic_as_revolute",
                 0.6,
                 "**A sliding joint is treated like a turning one.** It turns nothing, and moves every point the same way: what are its six "
                 "numbers?",
-                lambda _: partial(freedoms, slides=False),
+                wrong={"slides": False},
             ),
             mistake(
                 "half_of_the_numbers",
                 0.4,
                 "**Only three of the six numbers of a column are used.** A motion turns *and* moves: robots with more than three joints show it.",
-                lambda _: partial(freedoms, part=slice(0, 3)),
-                lambda _: partial(freedoms, part=slice(3, 6)),
-                lambda _: partial(freedoms, part=slice(3, 6), about_tip=True),
+                wrong=[{"part": slice(0, 3)}, {"part": slice(3, 6)}, {"part": slice(3, 6), "about_tip": True}],
             ),
             mistake(
                 "axes_one_frame_early",
                 0.5,
                 "**The axes are taken one frame too early.** In the modified convention joint i turns about Z_i, which is known *after* the "
                 "matrix of row i.",
-                lambda _: partial(freedoms, early=True),
+                wrong={"early": True},
             ),
         ),
-        probe=robots_at_random,
-        case=kind_of_table,
+        probe=draw_tables,
+        case=name_table,
     ),
     Question(
         "tables.arm",

@@ -1,0 +1,173 @@
+"""The Adept s600: symbols, the type-8 equation, and an inverse model that can go wrong."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+import sympy
+
+from autograder.judge import Family, mistake
+from autograder.judge.misconceptions import product
+from autograder.judge.steps import substitute
+from autograder.reference import robots
+from autograder.reference.transforms import modified_dh
+
+from ..shared import two_link
+from ..shared.residuals import distance_and_turn
+from ..shared.tables import list_rows
+
+t1, t2, r3, t4, d2, d3, r30 = sympy.symbols("t1 t2 r3 t4 d2 d3 r30")
+X, Y, Z1, Z2, tj = sympy.symbols("X Y Z1 Z2 tj")
+
+TABLE = robots.ADEPT_S600.table
+ROWS = list_rows(TABLE)
+TRANSFORMS = TABLE.transforms()
+HAND, T14, *_ = TABLE.recursion()
+T14_WITH_Z4_UP = product([*TRANSFORMS[1:3], modified_dh(0, 0, 0, t4)])
+R30 = -0.05
+
+CONSTANT = (
+    "**The constant r30 is missing.** The motor's zero is not where O3 meets the arm: two lengths lie along z3. The tutorial "
+    "leaves it out in one matrix, too."
+)
+
+
+def constant_missing(share=0.7):
+    """The mistake of leaving out r30."""
+    return mistake("constant_missing", share, CONSTANT, substitute({r30: 0}))
+
+
+# ---------------------------------------------------------------- the type-8 equation
+
+B1, B2 = X + Y * sympy.cos(tj), Y * sympy.sin(tj)
+
+
+def solve_linear(b1, b2) -> list[sympy.Expr]:
+    """[cos, sin] of the angle that carries (b1, b2) onto (Z1, Z2)."""
+    norm = b1**2 + b2**2
+    return [(Z1 * b1 + Z2 * b2) / norm, (Z2 * b1 - Z1 * b2) / norm]
+
+
+def draw_posture(rng: np.random.Generator) -> dict[str, float]:
+    """A sample point: Z1, Z2 and tj belong to one posture."""
+    l1, l2, _, q2, x, y = two_link.draw_posture(rng)
+    return {"X": l1, "Y": l2, "Z1": x, "Z2": y, "tj": q2}
+
+
+def blame(wrong: int, instead_of: int):
+    """A step on line numbers: one is taken for another."""
+    return lambda lines: sorted(wrong if line == instead_of else line for line in lines)
+
+
+# ---------------------------------------------------------------- the inverse model
+
+
+@lru_cache(maxsize=1024)
+def robot(length2, length3, constant) -> robots.Robot:
+    return robots.adept_s600(length2, length3, constant)
+
+
+def mgi(x, y, z, omega, length2, length3, constant, *, constant_sign=-1, clipped=True, divided=False):
+    """All [t1, t2, r3, t4] for a pose, a `Family` at the centre of an arm with equal links.
+
+    `constant_sign` is that of r30 in r3, 0 where it is left out. Without clipping the function fails where rounding has
+    pushed the elbow cosine beyond 1; with a division it fails at the centre.
+    """
+    case = name_case(x, y, z, omega, length2, length3, constant)
+    if not clipped and 1 < abs(two_link.elbow_cosine(x, y, length2, length3)) < 1 + 1e-9:
+        raise ValueError("math domain error")
+    if divided and case == AT_CENTRE:
+        raise ZeroDivisionError("float division by zero")
+    found = robot(length2, length3, constant).inverse((x, y, z, omega))
+    more = (constant_sign + 1) * constant
+    rows = [[q1, q2, height + more, q4] for q1, q2, height, q4 in found.q.tolist()]
+    return Family(turn_about_centre(rows[0])) if found.status == "infinite" else rows
+
+
+def turn_about_centre(row, firsts=(0.0, -np.pi / 2, np.pi / 2)) -> list[list[float]]:
+    """Members of the family of a folded arm, by their t1; the direction of the hand stays."""
+    return [[first, row[1], row[2], row[3] + first - row[0]] for first in firsts]
+
+
+def keep_elbow(which: int):
+    """A step: one of two postures. Those of a folded arm have the same elbow, and any of them shows all."""
+    return lambda found: found if len(found) < 2 or found[0][1] == found[1][1] else [found[which]]
+
+
+def residual(q, *pose, mine) -> np.ndarray:
+    """How far the hand is from the pose, (k,), for joint values (k, 4); without a pose, from the student's."""
+    x, y, z, omega, *lengths = pose or own_pose(mine)
+    return distance_and_turn(robot(*lengths).forward(q), (x, y, z), omega)
+
+
+def own_pose(mine) -> tuple[float, ...]:
+    """The student's (x, y, z, omega) and arm (d2, d3, r30)."""
+    return mine.x, mine.y, mine.z, np.radians(mine.omega), mine.d2, mine.d3, R30
+
+
+def draw_poses(rng: np.random.Generator) -> list[list[float]]:
+    """Argument lists: poses in all quadrants, on both limits, out of reach, and at the centre of an arm with equal links."""
+    found = []
+    for quadrant in range(4):
+        for _ in range(2):
+            x, y, l2, l3 = two_link.draw_target(rng, quadrant, (0.25, 0.5), (0.15, 0.9))
+            found.append([x, y, *_draw_height_and_direction(rng), l2, l3, rng.uniform(-0.1, 0.1)])
+    found += [[0.0, 0.5, -0.1, np.pi / 2, 0.325, 0.275, -0.05], [-0.4, 0.0, -0.2, 0.0, 0.325, 0.275, 0.0]]
+    # Binary fractions: on these limits the elbow cosine is exactly 1 or -1 however it is computed.
+    found += [[0.75, 0.0, -0.1, 0.5, 0.5, 0.25, 0.0], [0.0, -0.25, -0.1, 0.5, 0.25, 0.5, -0.05]]
+    for _ in range(2):
+        x, y, l2, l3 = two_link.draw_rounded_limit(rng)
+        found.append([x, y, *_draw_height_and_direction(rng), l2, l3, -0.05])
+    found += [[0.5, 0.4, -0.1, 0.5, 0.325, 0.275, 0.0], [0.02, 0.01, -0.1, 0.5, 0.325, 0.275, 0.0]]
+    found += [[0.0, 0.0, -0.15, 0.5, 0.5, 0.5, -0.05]]
+    return [[float(value) for value in args] for args in found]
+
+
+def _draw_height_and_direction(rng: np.random.Generator) -> tuple[float, float]:
+    return rng.uniform(-0.3, 0.0), rng.uniform(-3, 3)
+
+
+AT_CENTRE = "the centre, with equal links"
+
+
+def name_case(x, y, z, omega, l2, l3, constant) -> str:
+    """The case a pose belongs to, in words."""
+    if np.hypot(x, y) < 1e-9 and abs(l2 - l3) < 1e-9:
+        return AT_CENTRE
+    return f"poses {two_link.classify(x, y, l2, l3)}"
+
+
+# ---------------------------------------------------------------- all configurations
+
+
+def list_configurations(mine) -> list[list[float]]:
+    """All [t1, t2, r3, t4] with t4 between -2 pi and 2 pi, posture after posture, the smaller |t4| first."""
+    found = []
+    for row in mgi(*own_pose(mine)):
+        other = row[3] - np.copysign(2 * np.pi, row[3])
+        found += [[*row[:3], row[3]], [*row[:3], other]]
+    return found
+
+
+# ---------------------------------------------------------------- the classic table
+
+CLASSIC = [[*link, *row[3:]] for link, row in zip([row[1:3] for row in ROWS[1:]] + [[0, 0]], ROWS)]
+
+
+def turn_axis_3_over(sign: int):
+    """A step: half a turn already behind joint 2; the height of row 3 with the given sign."""
+
+    def step(rows):
+        second, third = list(rows[1]), list(rows[2])
+        second[1], third[1] = sympy.pi, 0
+        third[2] = sign * third[2]
+        return [rows[0], second, third, rows[3]]
+
+    return step
+
+
+def move_links_down(rows):
+    """The columns of the links one row further down than in the classic table of the same rows."""
+    links = [[0, 0], *([*row[:2]] for row in rows[:-1])]
+    return [[*link, *row[2:]] for link, row in zip(links, rows)]

@@ -1,0 +1,181 @@
+"""Tables of printed robots, classic and modified rows, the rank of a table, a table from joint origins."""
+
+from __future__ import annotations
+
+import numpy as np
+import sympy
+
+from autograder.reference import robots
+from dhkit.geometry import modified_dh
+
+from ..shared.tables import list_rows
+
+HALF = sympy.pi / 2
+MODIFIED, CLASSIC, MIXED = 1, 2, 3
+PRINTED_TABLES = [MODIFIED, CLASSIC, MODIFIED, CLASSIC, MIXED]  # planar 3R, planar 2R, elbow arm, wrist, PUMA-like arm
+
+# ---------------------------------------------------------------- planar arms
+
+
+def planar(lengths, angles, *, base=False, last_link=True, heading="sum", unit=1.0, heading_unit=None) -> list[float]:
+    """Tip and heading [x, y, heading] of a planar arm with any number of joints.
+
+    With `base` each angle counts from the x axis; without `last_link` the tip is the last joint; `heading` may be the
+    ``"last"`` angle; `unit`, and `heading_unit` where it differs, is that of the angles, in radians.
+    """
+    if not last_link:
+        lengths = [*lengths[:-1], 0.0]
+    if base:
+        x, y = np.array(lengths) @ np.cos(unit * np.array(angles)), np.array(lengths) @ np.sin(unit * np.array(angles))
+    else:
+        x, y = robots.planar(lengths).forward(unit * np.array(angles))[:2, 3]
+    turned = angles[-1] if heading == "last" else np.sum(angles)
+    return [float(x), float(y), float((unit if heading_unit is None else heading_unit) * turned)]
+
+
+def draw_arms(rng: np.random.Generator) -> list[list]:
+    """Argument lists: arms with one to six links."""
+    counts = (1, 2, 2, 3, 3, 4, 6)
+    return [[rng.uniform(0.1, 0.6, n).round(3).tolist(), rng.uniform(-2.5, 2.5, n).round(3).tolist()] for n in counts]
+
+
+def name_arm(lengths, angles) -> str:
+    """The case an arm belongs to, in words."""
+    return "arms with one or two links" if len(lengths) < 3 else "arms with more links"
+
+
+# ---------------------------------------------------------------- RX-90 in classic rows
+
+
+RX90_CLASSIC = [list(row.parameters) for row in robots.RX90.table.to_classic().rows]
+
+
+def move_x_pairs(places: int):
+    """A step on rows [a, alpha, d, theta]: a and alpha moved down by some places; zeros follow."""
+
+    def step(rows):
+        pairs = [[0, 0]] * places + [row[:2] for row in rows[: len(rows) - places]]
+        return [[*pair, *row[2:]] for pair, row in zip(pairs, rows)]
+
+    return step
+
+
+def leave_alpha(rows):
+    """Only a is moved: alpha still stands where the modified table has it."""
+    modified = move_x_pairs(1)(rows)
+    return [[row[0], below[1], *row[2:]] for row, below in zip(rows, modified)]
+
+
+def move_z_pairs(rows):
+    """d and theta are moved up as well."""
+    pairs = [row[2:] for row in rows[1:]] + [[0, 0]]
+    return [[*row[:2], *pair] for row, pair in zip(rows, pairs)]
+
+
+# ---------------------------------------------------------------- the wrist and the PUMA-like arm
+
+
+WRIST = list_rows(robots.SPHERICAL_WRIST.table)
+WRIST_PRINTED = [[0, 0, -HALF, 0, WRIST[0][4]], [0, 0, HALF, 0, WRIST[1][4]], [0, 0, 0, *WRIST[2][3:]]]
+PUMA_ROW = list_rows(robots.PUMA.table)[5]
+PUMA_PRINTED_ROW = list_rows(robots.PUMA_PRINTED.table)[5]
+
+# ---------------------------------------------------------------- freedoms of a table of numbers
+
+
+def screws(rows, *, slides=True, early=False, about_tip=False) -> np.ndarray:
+    """Columns (Z_i, O_i x Z_i) of turning joints and (0, Z_i) of sliding ones, shape (6, n).
+
+    Without `slides` every joint turns; `early` takes axis i from the frame before it; `about_tip` counts moments about
+    the tip.
+    """
+    rows = np.array(rows, dtype=float)
+    frames = [np.eye(4)]
+    for step in modified_dh(*rows.T[1:]):
+        frames.append(frames[-1] @ step)
+    centre = frames[-1][:3, 3] if about_tip else np.zeros(3)
+    columns = []
+    for row, frame in zip(rows, frames if early else frames[1:]):
+        axis, origin = frame[:3, 2], frame[:3, 3]
+        sliding = slides and row[0] == 1
+        columns.append(np.concatenate([0 * axis, axis] if sliding else [axis, np.cross(origin - centre, axis)]))
+    return np.transpose(columns)
+
+
+def freedoms(rows, *, count="rank", part=slice(None), slides=True, early=False, about_tip=False) -> int:
+    """The rank of the screws of a table, (n, 5), or of a `part` of their six numbers.
+
+    `count` may be ``"joints"``, or ``"joints up to six"``; the other keywords are those of `screws`.
+    """
+    if count != "rank":
+        return len(rows) if count == "joints" else min(len(rows), 6)
+    found = screws(rows, slides=slides, early=early, about_tip=about_tip)
+    return int(np.linalg.matrix_rank(found[part], tol=1e-6))
+
+
+def draw_tables(rng: np.random.Generator) -> list[list]:
+    """Argument lists: tables of robots at random postures, with sliding joints, with two joints on one line, and sound ones."""
+    tables = [
+        robots.RX90,
+        robots.PUMA,
+        robots.PUMA_PRINTED,
+        robots.SCARA,
+        robots.SPHERICAL_WRIST,
+        robots.PLANAR_3R,
+        robots.KR210,
+    ]
+    found = []
+    for robot in tables:
+        table = robot.table.at(robot.table.values)
+        joints = {joint: rng.uniform(0.2, 1.2) for joint in table.joints}
+        found.append(
+            [[float(cell) for cell in (row.sigma, *(p.subs(joints) for p in row.parameters))] for row in table.rows]
+        )
+    a, d, t = rng.uniform(0.2, 0.6, 3)
+    half = np.pi / 2
+    found.append([[1, 0, 0, d, 0], [1, 0, half, a, half], [1, 0, half, t, 0]])  # a gantry
+    found.append([[0, 0, 0, 0, t], [1, 0, 0, d, 0], [0, a, 0, 0, t], [1, 0, 0, a, 0]])  # two parallel slides
+    found.append([[0, 0, -half, 0, t], [0, 0, half, 0, a], [0, 0, 0, d, t]])  # the wrist as printed, read as modified
+    return [[[[round(cell, 6) for cell in row] for row in rows]] for rows in found]
+
+
+def name_table(rows) -> str:
+    """The case a table belongs to, in words."""
+    if any(row[0] == 1 for row in rows):
+        return "tables with a sliding joint"
+    return (
+        "sound tables of turning joints"
+        if freedoms(rows) == min(len(rows), 6)
+        else "tables with two joints on one line"
+    )
+
+
+# ---------------------------------------------------------------- a table from a list of joint origins
+
+
+KR210 = list_rows(robots.KR210.table)
+
+
+def arm(
+    mine,
+    d1=lambda origins: origins.z1 + origins.z2,
+    a1=lambda origins: origins.x2,
+    d4=lambda origins: origins.x4 + origins.x5,
+    d6=lambda origins: 0,
+) -> list[list]:
+    """The rows of an arm like the KR210; each keyword takes a length from the student's list of joint origins."""
+    lengths = {"d1": d1(mine), "a1": a1(mine), "a2": mine.z3, "a3": mine.z4, "d4": d4(mine)}
+    rows = [[lengths.get(str(cell), cell) for cell in row] for row in KR210]
+    rows[5][3] = d6(mine)
+    return rows
+
+
+def gripper(mine, turn=((0.0, 0, 1), (0, -1, 0), (1, 0, 0)), ahead=(0, 0, 1), rows=("x6", "xg")) -> list[list]:
+    """Transform from frame 6 to the gripper as nested lists.
+
+    `turn` is its rotation, `ahead` the direction of the way to its origin, and `rows` are those of the list on this way.
+    """
+    matrix = np.eye(4)
+    matrix[:3, :3] = turn
+    matrix[:3, 3] = np.array(ahead) * sum(mine[row] for row in rows)
+    return [[int(cell) if cell == int(cell) else float(cell) for cell in row] for row in matrix]

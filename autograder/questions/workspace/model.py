@@ -1,0 +1,244 @@
+"""Workspace of the planar and the elbow arm: clouds, areas and limits of the student's own arm, postures within stops."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+import sympy
+
+from autograder.reference import robots
+from autograder.reference.equations import type8
+from autograder.reference.singularities import two_link_determinant
+from autograder.reference.workspace import RRArm, planar_points, rr_grid
+from dhkit.geometry import unit_vector
+
+t1, t2, t3, L1, L2 = sympy.symbols("t1 t2 t3 L1 L2")
+t1i, t1j, t2i, t2j = sympy.symbols("t1i t1j t2i t2j")
+
+# ---------------------------------------------------------------- the point function
+
+HAND = list(robots.PLANAR_2R.table.symbolic_forward()[:2, 3])
+POINT = [entry.subs({t1: t1i, t2: t2j}) for entry in HAND]
+ABSOLUTE_POINT = [L1 * f(t1i) + L2 * f(t2j) for f in (sympy.cos, sympy.sin)]
+DETERMINANT = two_link_determinant(L1, L2, t2)
+JACOBIAN = sympy.Matrix(HAND).jacobian([t1, t2])
+PRODUCTS_ADDED = JACOBIAN[0, 0] * JACOBIAN[1, 1] + JACOBIAN[0, 1] * JACOBIAN[1, 0]
+
+# ---------------------------------------------------------------- the student's own arm
+
+
+def own_arm(mine) -> RRArm:
+    """The arm of the student's lengths and ranges."""
+    return RRArm(mine.L1, mine.L2, _range(mine.t1_min, mine.t1_max), _range(mine.t2_min, mine.t2_max))
+
+
+def _range(low, high) -> tuple[float, float]:
+    """A range in degrees, in radians."""
+    return tuple(np.radians([low, high]))
+
+
+def cloud(mine, shape="grid", ranges="own") -> list[list[float]]:
+    """Points [x, y] of the workspace.
+
+    `shape` may be ``"diagonal"``, both joints in step, or ``"absolute"``, both angles counted from the x axis; `ranges`
+    may be ``"exchanged"``.
+    """
+    arm = own_arm(mine)
+    if ranges == "exchanged":
+        arm = replace(arm, q1=arm.q2, q2=arm.q1)
+    q1, q2 = np.linspace(*arm.q1, 60), np.linspace(*arm.q2, 24)
+    if shape == "diagonal":
+        together = np.stack([np.linspace(*limits, 400) for limits in (arm.q1, arm.q2)], axis=-1)
+        points = planar_points((arm.l1, arm.l2), together)
+    elif shape == "absolute":
+        first, second = np.meshgrid(q1, q2)
+        points = arm.l1 * unit_vector(first) + arm.l2 * unit_vector(second)
+    else:
+        points = rr_grid(arm.l1, arm.l2, q1, q2)
+    return points.reshape(-1, 2).tolist()
+
+
+def area(mine, turn="own", sheet="integrated") -> float:
+    """Area in square metres that the arm sweeps with its elbow bent to one side.
+
+    `turn` may be ``"full"``, and `sheet` the ``"product"`` of the two widths.
+    """
+    arm = own_arm(mine)
+    low, high = arm.q2
+    patch = {"integrated": abs(np.cos(low) - np.cos(high)), "product": high - low}[sheet]
+    width = arm.q1[1] - arm.q1[0] if turn == "own" else 2 * np.pi
+    return arm.l1 * arm.l2 * width * patch
+
+
+def full_turn_area(mine, how="ring") -> float:
+    """Area in square metres with a full turn of joint 1, and an elbow that bends both ways.
+
+    `how` may be ``"sheets added"``, ``"across the fold"`` or ``"no stops"``.
+    """
+    arm = RRArm(mine.L1, mine.L2, (-np.pi, np.pi), _range(-mine.back, mine.t2_max))
+    low, high = arm.q2
+    match how:
+        case "sheets added":
+            return sum(replace(arm, q2=part).area() for part in ((low, 0.0), (0.0, high)))
+        case "across the fold":
+            return arm.l1 * arm.l2 * 2 * np.pi * abs(np.cos(low) - np.cos(high))
+        case "no stops":
+            return RRArm(arm.l1, arm.l2).area()
+    return arm.area()
+
+
+# ---------------------------------------------------------------- limits of reach
+
+
+def holds(angle, low, high) -> bool:
+    """Whether a range holds an angle, modulo full turns."""
+    return np.mod(angle - low, 2 * np.pi) <= high - low
+
+
+def holds_zero(low, high) -> bool:
+    return holds(0, low, high)
+
+
+def holds_pi(low, high) -> bool:
+    return holds(np.pi, low, high)
+
+
+def reach(l1, l2, low, high, *, stretched=holds_zero, folded=holds_pi) -> list[float]:
+    """[smallest, largest] distance of the hand for a range of the elbow.
+
+    `stretched` and `folded` say whether a range holds the stretched and the folded arm.
+    """
+    angles = [low, high] + [0.0] * bool(stretched(low, high)) + [np.pi] * bool(folded(low, high))
+    r = np.sqrt(np.maximum(l1**2 + l2**2 + 2 * l1 * l2 * np.cos(angles), 0))
+    return [float(r.min()), float(r.max())]
+
+
+def always(low, high) -> bool:
+    return True
+
+
+def never(low, high) -> bool:
+    return False
+
+
+def draw_ranges(rng: np.random.Generator) -> list[list[float]]:
+    """Argument lists (L1, L2, t2_min, t2_max): lengths in both orders, ranges of the elbow with and without its straight angles, round ones too."""
+    found = [
+        *[(rng.uniform(0.1, 1.2), rng.uniform(1.4, 3.0)) for _ in range(3)],
+        *[(-rng.uniform(1.5, 3.0), -rng.uniform(0.1, 1.3)) for _ in range(2)],
+        *[(-rng.uniform(0.3, 1.4), rng.uniform(1.5, 2.9)) for _ in range(2)],
+        *[(-rng.uniform(1.5, 2.9), rng.uniform(0.3, 1.4)) for _ in range(2)],
+        *[(rng.uniform(0.5, 2.5), rng.uniform(3.5, 5.5)) for _ in range(3)],
+        *[(rng.uniform(3.4, 5.0), rng.uniform(6.5, 7.5)) for _ in range(2)],
+        (-5.0, -2.0),
+        (-5.5, 0.5),
+        (0.0, np.pi),
+        (-np.pi, 0.0),
+        (np.pi / 2, np.pi),
+        (-np.pi, np.pi),
+    ]
+    return [
+        [float(rng.uniform(0.3, 0.7)), float(rng.uniform(0.2, 0.6)), float(low), float(high)] for low, high in found
+    ]
+
+
+def name_range(l1, l2, low, high) -> str:
+    """The case a range belongs to, in words."""
+    names = [
+        name for name, held in (("the stretched arm", holds_zero), ("the folded arm", holds_pi)) if held(low, high)
+    ]
+    return "ranges with " + (" and ".join(names) or "neither the stretched nor the folded arm")
+
+
+# ---------------------------------------------------------------- postures within stops
+
+
+@lru_cache(maxsize=4096)
+def _postures(x, y, l1, l2):
+    return type8(l1, l2, x, y).listed()
+
+
+def hold_modulo_turns(q, limits) -> bool:
+    return all(holds(angle, *row) for angle, row in zip(q, limits))
+
+
+def hold_as_they_come(q, limits) -> bool:
+    """Angles compared without removing full turns."""
+    return all(low <= angle <= high for angle, (low, high) in zip(q, limits))
+
+
+def count(x, y, lengths, limits, *, allowed=hold_modulo_turns, elbows=slice(None), wrapped=True) -> int:
+    """How many postures within the stops bring the hand to (x, y).
+
+    `allowed` says whether limits (2, 2) hold two angles, `elbows` which of both postures are seen. Not `wrapped`,
+    theta1 is the difference of two atan2, anywhere in (-2 pi, 2 pi).
+    """
+    postures = _postures(x, y, *lengths)[elbows]
+    if not wrapped:
+        postures = [(_theta1(x, y, *lengths, bend), bend) for _, bend in postures]
+    return int(sum(bool(allowed(q, limits)) for q in postures))
+
+
+def _theta1(x, y, l1, l2, bend) -> float:
+    return np.arctan2(y, x) - np.arctan2(l2 * np.sin(bend), l1 + l2 * np.cos(bend))
+
+
+def draw_places(rng: np.random.Generator) -> list[list]:
+    """Argument lists (x, y, lengths, limits): points that two, one or no posture reaches, well away from every edge."""
+    wanted = dict.fromkeys(("two", "one", "forbidden", "beyond"), 5) | {"turned": 5}
+    found = []
+    while any(wanted.values()):
+        lengths = [float(rng.uniform(0.4, 0.6)), float(rng.uniform(0.2, 0.38))]
+        turned = rng.random() < 0.3
+        low = rng.uniform(1.2, 1.9) if turned else rng.uniform(-2.0, -0.5)
+        limits = [[low, low + rng.uniform(2.6, 3.3)], [-rng.uniform(0.4, 1.6), rng.uniform(1.5, 2.7)]]
+        limits = [[float(value) for value in row] for row in limits]
+        r, angle = rng.uniform(0.05, 1.1) * sum(lengths), rng.uniform(-np.pi, np.pi)
+        x, y = float(r * np.cos(angle)), float(r * np.sin(angle))
+        name = _classify(x, y, lengths, limits)
+        if wanted.get(name) and _clear_of_edges(x, y, lengths, limits):
+            wanted[name] -= 1
+            found.append([x, y, lengths, limits])
+    return found
+
+
+def _classify(x, y, lengths, limits) -> str:
+    postures, number = _postures(x, y, *lengths), count(x, y, lengths, limits)
+    if len(postures) == 0:
+        return "beyond"
+    if number and number != count(x, y, lengths, limits, allowed=hold_as_they_come):
+        return "turned"
+    return ("forbidden", "one", "two")[number]
+
+
+def _clear_of_edges(x, y, lengths, limits, room=0.03) -> bool:
+    r = np.hypot(x, y)
+    if min(abs(r - sum(lengths)), abs(r - abs(lengths[0] - lengths[1]))) < room:
+        return False
+    gaps = [
+        np.angle(np.exp(1j * (q[k] - edge))) for q in _postures(x, y, *lengths) for k in (0, 1) for edge in limits[k]
+    ]
+    return not gaps or min(map(abs, gaps)) > room
+
+
+CASES = {
+    "two": "points that both postures reach",
+    "one": "points that one posture reaches",
+    "forbidden": "points that only the stops forbid",
+    "beyond": "points out of reach",
+    "turned": "ranges that go beyond a half turn",
+}
+
+
+def name_place(x, y, lengths, limits) -> str:
+    """The case a point belongs to, in words."""
+    return CASES[_classify(x, y, lengths, limits)]
+
+
+# ---------------------------------------------------------------- the elbow arm
+
+ELBOW_HAND = robots.ELBOW_3R.table.symbolic_forward()[:3, 3].subs(t1, 0)
+SECTION = [sympy.simplify(ELBOW_HAND[0]), sympy.simplify(ELBOW_HAND[2])]
+ABSOLUTE_SECTION = [L1 * f(t2) + L2 * f(t3) for f in (sympy.cos, sympy.sin)]
