@@ -106,9 +106,8 @@ def cluster(question: Question, attempts: Iterable[Attempt]) -> tuple[Cluster, .
     question that has other numbers for each student.
     """
     attempts = sorted(attempts, key=lambda attempt: attempt.student)
-    forms = [_form(question, attempt.answer) for attempt in attempts]
-    if len({repr(attempt.right) for attempt in attempts}) > 1:
-        forms = [None] * len(attempts)
+    comparable = len({repr(attempt.right) for attempt in attempts}) <= 1
+    forms = [_form(question, attempt.answer) if comparable else None for attempt in attempts]
     alike: list[list[int]] = []
     words: dict[str, list[int]] = {}
     for i, form in enumerate(forms):
@@ -116,7 +115,8 @@ def cluster(question: Question, attempts: Iterable[Attempt]) -> tuple[Cluster, .
             words.setdefault(_MEASURE.sub("...", attempts[i].said), []).append(i)
             continue
         for heap in alike:
-            if attempts[heap[0]].answer == attempts[i].answer or form.equals(forms[heap[0]]):
+            first = forms[heap[0]]
+            if attempts[heap[0]].answer == attempts[i].answer or (first is not None and form.equals(first)):
                 heap.append(i)
                 break
         else:

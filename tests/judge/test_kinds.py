@@ -201,3 +201,8 @@ def test_what_is_not_understood_is_named(form, answer, found):
 def test_choice_ignores_case_and_space():
     form = question("choice", options=["A", "B"])
     assert compare(form, " a ", "A").equal and not compare(form, "b", "A").equal
+
+
+def test_every_form_can_be_judged():
+    """A kind is a module in dhkit/forms and one of the same name in judge/kinds; a function is judged by its results."""
+    assert set(kinds.KINDS) == set(forms.KINDS) - {"function"}

@@ -5,6 +5,7 @@ import re
 from decimal import Decimal
 from fractions import Fraction
 from functools import cache
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -220,8 +221,8 @@ def test_what_check_shows_is_what_the_verdict_says(id, capsys):
 @pytest.mark.parametrize("question", [*DATA[::7], *FUNCTIONS[::4]], ids=lambda question: question.id)
 def test_check_hands_in_whatever_it_is_given(question, monkeypatch):
     shown = []
-    monkeypatch.setattr("dhkit.notice.get_ipython", lambda: True)
-    monkeypatch.setattr("dhkit.notice.display", lambda data, raw: shown.append(json.dumps(data).encode("utf-8")))
+    display = lambda notice, data: shown.append(json.dumps([notice.text(), notice.html(), data]).encode("utf-8"))  # noqa: E731
+    monkeypatch.setattr(import_module("dhkit.check"), "show", display)
     for answer in (*ANSWERS, lambda *args: exit(3), lambda *args: Odd(), lambda *args: endless()):
         check(question.id, answer)
     assert len(shown) == len(ANSWERS) + 3

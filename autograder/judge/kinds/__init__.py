@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from importlib import import_module
 from pkgutil import iter_modules
+from typing import Any
 
 from dhkit import forms
 from dhkit.forms import Form
@@ -36,7 +37,7 @@ KINDS: dict[str, Kind] = {
 }
 
 
-def read(form: Form, answer: Decoded) -> object:
+def read(form: Form, answer: Decoded) -> Any:
     """An answer as its kind holds it; `Malformed` where it is not in the form asked for, in the words of `check`."""
     complaint = form.complaint(answer.node)
     if complaint:
@@ -46,6 +47,6 @@ def read(form: Form, answer: Decoded) -> object:
     return KINDS[form.kind].read(form, value)
 
 
-def compare(form: Form, student: object, other: object, setting: Setting) -> Comparison:
+def compare(form: Form, student: Any, other: Any, setting: Setting) -> Comparison:
     """A student's answer beside another one, both as `read` returns them."""
     return KINDS[form.kind].compare(form, student, other, setting)
