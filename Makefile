@@ -55,12 +55,14 @@ bench: setup .venv-bench/installed
 
 setup: .venv/installed bubblewrap
 
-# uv installs in seconds what takes pip minutes; pip does it where uv cannot.
+# uv installs in seconds what takes pip minutes; pip does it where uv cannot. rfc3987-syntax, where jsonschema finds it,
+# costs every process that reads a notebook two seconds, for the form of addresses that no notebook holds.
 .venv/installed: requirements.txt constraints.txt course/requirements.txt pyproject.toml course/pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed" if sys.version_info < (3, 11) else 0)'
 	$(PYTHON) -m venv .venv
 	$(PIP) "$$(grep -o '^uv==[^ ]*' requirements.txt)" && \
 	$(BIN)/uv pip install --quiet --compile-bytecode --python $(BIN)/python $(ENVIRONMENT) || $(PIP) $(ENVIRONMENT)
+	$(BIN)/python -m pip uninstall --quiet --yes rfc3987-syntax
 	@touch $@
 
 .venv-bench/installed: tests/benchmarks/requirements.txt
