@@ -12,7 +12,7 @@ import subprocess
 import sys
 import uuid
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import nbformat
@@ -192,6 +192,13 @@ def test_a_question(newcomer):
         "right",
         "x_and_y_exchanged",
     ]
+
+
+@pytest.mark.slow
+def test_a_manual_that_forgets_to_say_something_is_noticed(newcomer):
+    blocks = [replace(block, text=block.text.replace(" (1 point)", "")) for block in recipe(QUESTION)]
+    with pytest.raises(AssertionError, match=r"'## Title \(n points\)'"):
+        newcomer.follow(blocks)
 
 
 @pytest.mark.slow
