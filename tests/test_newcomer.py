@@ -24,7 +24,9 @@ from write import hand_in
 ROOT = Path(__file__).parents[1]
 MANUAL = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
 FOLDERS = ("autograder", "course", "docs", "exercises", "solutions", "tests")
-QUESTION, ROBOT, EXERCISE = "Adding a question", "Adding a robot", "Adding an exercise"
+QUESTION, KIND, ROBOT, EXERCISE = (
+    f"Adding {thing}" for thing in ("a question", "a kind of answer", "a robot", "an exercise")
+)
 TUPLE_END = "\n)\n"
 NAMES = re.compile(r"^\[\w+\]|^def \w+", re.M)  # of questions and robots
 PYTHON_3 = {"kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"}}
@@ -54,7 +56,7 @@ def recipe(title: str) -> list[Block]:
 
 def named(words: str, said: str) -> str | None:
     """What stands in backticks behind these words, None if they are not said."""
-    found = re.search(rf"{words} `([^`]+)`", " ".join(said.split()))
+    found = re.search(rf"{words} `([^`]+)`", " ".join(said.split()), re.I)
     return found and found[1]
 
 
@@ -199,6 +201,23 @@ def test_a_manual_that_forgets_to_say_something_is_noticed(newcomer):
     blocks = [replace(block, text=block.text.replace(" (1 point)", "")) for block in recipe(QUESTION)]
     with pytest.raises(AssertionError, match=r"'## Title \(n points\)'"):
         newcomer.follow(blocks)
+
+
+@pytest.mark.slow
+def test_a_kind_of_answer(newcomer):
+    newcomer.follow(recipe(KIND))
+    half = "(t1 + t2) / 2"
+    answers = {"other sign": f"[-cos({half}), 0, 0, -sin({half})]", "inverse": f"[cos({half}), 0, 0, -sin({half})]"}
+    notes = newcomer.grade(
+        *(
+            Submission("planar_2r", name, "", answered=(), answers={"turn": f"turn = {code}"})
+            for name, code in answers.items()
+        )
+    )
+    assert {name: found["planar_2r.turn"] for name, found in notes.items()} == {
+        "other sign": "right",
+        "inverse": "nothing_matched",
+    }
 
 
 @pytest.mark.slow
