@@ -54,9 +54,9 @@ def keyed(names, row):
     return dict(reversed(list(zip(names, row, strict=True))))
 
 
-def other_forms(question):
-    """The reference written in other ways that a student may use: at least five of them for every kind but choices."""
-    answer, kind, form = right(question), question.form.kind, question.form
+def other_forms(question, answer):
+    """An answer written in other ways that a student may use: at least five of them for every kind but choices."""
+    kind, form = question.form.kind, question.form
     if kind == "choice":
         return {"lower case": answer.lower(), "spaces": f" {answer}\n"}
     if kind == "point_cloud":
@@ -108,6 +108,12 @@ def other_forms(question):
         forms["longer"] = change(lambda e: 7 * e)
         forms["the other way"] = change(lambda e: -e)
     return forms
+
+
+def another_form(question, node, answer):
+    """A mistaken answer in one of its other forms, in turn from mistake to mistake."""
+    forms = list(other_forms(question, answer).items())
+    return next(form for name, form in forms[len(node.note) % len(forms) :] + forms if name != "a turn further")
 
 
 def perturbed(question, rng):

@@ -9,7 +9,7 @@ from itertools import permutations
 import numpy as np
 import pytest
 import sympy
-from answers import STUDENT, mistaken, other_forms, perturbed, right, verdict
+from answers import STUDENT, another_form, mistaken, other_forms, perturbed, right, verdict
 
 from autograder.judge import Evidence, Family, judge
 from autograder.questions import exercises, find
@@ -23,13 +23,13 @@ ids = lambda questions: [question.id for question in questions]  # noqa: E731
 
 def right_forms():
     for question in DATA:
-        for name in ("as it is", *other_forms(question)):
+        for name in ("as it is", *other_forms(question, right(question))):
             yield pytest.param(question, name, id=f"{question.id}: {name}")
 
 
 @pytest.mark.parametrize(("question", "form"), list(right_forms()))
 def test_right_forms_earn_everything(question, form):
-    answer = {"as it is": right(question), **other_forms(question)}[form]
+    answer = {"as it is": right(question), **other_forms(question, right(question))}[form]
     assert (verdict(question, answer).note, verdict(question, answer).share) == ("right", 1.0)
 
 
@@ -57,9 +57,12 @@ def mistakes():
 
 @pytest.mark.parametrize(("question", "node", "way"), list(mistakes()))
 def test_every_mistake_is_named(question, node, way):
-    found = verdict(question, mistaken(question, way))
-    assert (found.note, found.share) == (node.note, node.share)
-    assert found.feedback.startswith(node.feedback.partition("{")[0])
+    """As the tree makes it, and as a student may write it: a mistake that only the tree can make is nobody's."""
+    answer = mistaken(question, way)
+    for written in (answer, another_form(question, node, answer)) if question in DATA else (answer,):
+        found = verdict(question, written)
+        assert (found.note, found.share) == (node.note, node.share)
+        assert found.feedback.startswith(node.feedback.partition("{")[0])
 
 
 @pytest.mark.parametrize("question", DATA, ids=ids(DATA))
