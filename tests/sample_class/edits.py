@@ -7,6 +7,7 @@ names to contents. Every edit is a pure function: it returns a changed copy. Cel
 
 from __future__ import annotations
 
+import ast
 import json
 from copy import deepcopy
 
@@ -41,6 +42,20 @@ def released(nb: Notebook) -> Notebook:
         if cell["cell_type"] == "markdown" and cell["metadata"].get("nbgrader", {}).get("solution"):
             cell["source"] = TEXT_STUB
     return nb
+
+
+def undrawn(nb: Notebook) -> Notebook:
+    """The notebook without the cells that only draw: they give no name to anything, so that no answer depends on them."""
+    return nb | {"cells": [cell for cell in nb["cells"] if not _only_draws(cell)]}
+
+
+def _only_draws(cell: dict) -> bool:
+    if cell["cell_type"] != "code" or grade_id(cell):
+        return False
+    statements = ast.parse(_source(cell)).body
+    calls = [one.value.func for one in statements if isinstance(one, ast.Expr) and isinstance(one.value, ast.Call)]
+    names = [called.id for called in calls if isinstance(called, ast.Name)]
+    return len(names) == len(statements) > 0 and all(name.startswith(("draw_", "show_")) for name in names)
 
 
 def signed(nb: Notebook, student: str) -> Notebook:

@@ -6,7 +6,7 @@ import shutil
 import expected
 import nbformat
 import pytest
-from edits import FILE_EDITS, NOTEBOOK_EDITS, STUB, grade_id, released, solved
+from edits import FILE_EDITS, NOTEBOOK_EDITS, STUB, grade_id, released, solved, undrawn
 from expected import Submission, submissions
 from nbgrader.preprocessors import ClearSolutions
 from write import NotOurs, hand_in, solution, write_class
@@ -29,6 +29,16 @@ def test_a_solved_notebook_keeps_its_cells(exercise):
     nb, source = solved(solution(exercise)), solution(exercise)
     assert [cell["id"] for cell in nb["cells"]] == [cell["id"] for cell in source["cells"]]
     assert not any("SOLUTION" in cell["source"] for cell in nb["cells"])
+
+
+@pytest.mark.parametrize("exercise", EXERCISES)
+def test_what_only_draws_can_be_left_out(exercise):
+    source = solution(exercise)
+    kept = undrawn(source)["cells"]
+    assert kept == [cell for cell in source["cells"] if cell in kept], "in the same order"
+    missing = ["".join(cell["source"]) for cell in source["cells"] if cell not in kept]
+    assert len(missing) >= 4 and all(text.startswith(("draw_", "show_")) for text in missing)
+    assert all(grade_id(cell) is None for cell in source["cells"] if cell not in kept)
 
 
 def test_edits_leave_their_input_alone():

@@ -18,7 +18,7 @@ from write import REPOSITORY, solution, write_class
 from autograder.questions import exercises
 from autograder.sandbox import available
 
-pytestmark = pytest.mark.xdist_group("sample_class")
+pytestmark = [pytest.mark.xdist_group("sample_class"), pytest.mark.slow, pytest.mark.sandbox]
 
 SANDBOX = available() is None
 CLASS = [submission for submission in submissions() if SANDBOX or not submission.harmful]
@@ -52,7 +52,7 @@ def run(course, *words):
 def course(tmp_path_factory):
     """The sample class, released and not yet graded."""
     root = tmp_path_factory.mktemp("sample_class") / "course"
-    write_class(root, harmless=not SANDBOX)
+    write_class(root, harmless=not SANDBOX, sparse=True)
     run(root, "-m", "autograder.cli", "release")
     return root
 

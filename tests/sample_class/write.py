@@ -11,7 +11,19 @@ import shutil
 import sys
 from pathlib import Path
 
-from edits import FILE_EDITS, NOTEBOOK_EDITS, Files, Notebook, answer, as_file, position, released, signed, solved
+from edits import (
+    FILE_EDITS,
+    NOTEBOOK_EDITS,
+    Files,
+    Notebook,
+    answer,
+    as_file,
+    position,
+    released,
+    signed,
+    solved,
+    undrawn,
+)
 from expected import HERE, Submission, submissions
 
 REPOSITORY = HERE.parents[1]
@@ -71,7 +83,7 @@ def _arguments(step: dict) -> dict:
     return {key: value for key, value in step.items() if key != "do"}
 
 
-def write_class(folder: Path, harmless: bool = False, short: bool = False) -> list[Submission]:
+def write_class(folder: Path, harmless: bool = False, short: bool = False, sparse: bool = False) -> list[Submission]:
     """Make `folder` a course with the sample class in it; an earlier sample class there is replaced.
 
     Parameters
@@ -82,6 +94,9 @@ def write_class(folder: Path, harmless: bool = False, short: bool = False) -> li
         Leave out what could do harm on a machine without a sandbox.
     short : bool
         Write only one right notebook and one with named mistakes for every exercise, and one submission of every other kind.
+    sparse : bool
+        Let only the submissions of the short class draw; in the others, cells that do nothing else are missing. Drawing is
+        most of what running a notebook costs.
 
     Returns
     -------
@@ -107,14 +122,21 @@ def write_class(folder: Path, harmless: bool = False, short: bool = False) -> li
             shutil.copyfile(REPOSITORY / name, folder / name)
     chosen = [submission for submission in submissions() if not (harmless and submission.harmful)]
     if short:
-        chosen = [one for one in chosen if one.stock or one.student in ("right", "mistakes-1")]
+        chosen = [one for one in chosen if _is_in_short_class(one)]
     sources = {exercise: solution(exercise) for exercise in {submission.exercise for submission in chosen}}
     for submission in chosen:
         place = folder / "submitted" / submission.student / submission.exercise
         place.mkdir(parents=True)
-        for name, content in hand_in(submission, sources[submission.exercise], folder).items():
+        source = sources[submission.exercise]
+        if sparse and not _is_in_short_class(submission):
+            source = undrawn(source)
+        for name, content in hand_in(submission, source, folder).items():
             (place / name).write_bytes(content)
     return chosen
+
+
+def _is_in_short_class(submission: Submission) -> bool:
+    return submission.stock or submission.student in ("right", "mistakes-1")
 
 
 def _forget(path: Path) -> None:
