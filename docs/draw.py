@@ -10,8 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from autograder.reference import robots
-from dhkit.drawing.chains import draw_chain
-from dhkit.drawing.postures import draw_posture_gallery
+from dhkit.drawing import draw_chain, draw_posture_gallery
 
 HERE = Path(__file__).parent
 Q = np.radians([-20, 55, -30, 20, 60, 0])

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
+OURS = ("autograder", "dhkit")
 GEOMETRY = "dhkit.geometry"  # of the kit, the one part that the reference solver may use
 MAY_IMPORT = {
     "autograder/reference": {GEOMETRY},
@@ -42,6 +43,31 @@ def test_a_room_imports_only_what_stands_below_it(folder):
     for file in sorted((ROOT / folder).rglob("*.py")):
         ours = {name for name in imported(file) if name.startswith(("autograder", "dhkit"))}
         assert {room(name) for name in ours} <= allowed, (file, ours)
+
+
+def private_names_of_other_modules(file):
+    """Names with a leading underscore that a file takes from another module of ours, with their lines."""
+    tree = ast.parse(file.read_text())
+    modules = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and (node.level or node.module.split(".")[0] in OURS):
+            modules |= {alias.asname or alias.name for alias in node.names}
+            yield from (f"{node.lineno}: {alias.name}" for alias in node.names if is_private(alias.name))
+        elif isinstance(node, ast.Import):
+            modules |= {alias.asname or alias.name for alias in node.names if alias.name.split(".")[0] in OURS}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Attribute) and is_private(node.attr) and ast.unparse(node.value) in modules:
+            yield f"{node.lineno}: {ast.unparse(node)}"
+
+
+def is_private(name):
+    return name.startswith("_") and not name.startswith("__")
+
+
+@pytest.mark.parametrize("folder", ["autograder", "course/dhkit"])
+def test_what_begins_with_an_underscore_stays_in_its_module(folder):
+    found = {str(file): list(private_names_of_other_modules(file)) for file in sorted((ROOT / folder).rglob("*.py"))}
+    assert not {file: names for file, names in found.items() if names}
 
 
 def test_students_kit_needs_few_libraries():

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from autograder.judge.clusters import is_unexplained
-from dhkit.strokes import AXIS_COLOURS, FAINT, INK, SOFT, STYLE
+from dhkit.drawing.style import AXIS_COLOURS, FAINT, INK, SOFT, STYLE
 
 from .statistics import NOTHING_CAME, RIGHT, TELLS, TELLS_WELL, ClassReport, QuestionReport
 

@@ -1,15 +1,42 @@
-"""Drawings of an inverse model's answers: all postures of one pose side by side, families, arm plane, shoulder, wrist."""
+"""What an inverse model answers: the postures of one pose side by side, families, arm plane, shoulder, wrist."""
 
 from __future__ import annotations
 
 import numpy as np
 from matplotlib.patches import Circle, Rectangle
 
-from .. import strokes
+from ..geometry import planar_joints, unit_vector, wrap
 from .chains import chain_frames
-from .planar import planar_points
+from .inputs import as_lengths, as_names, as_numbers, as_rows
+from .strokes import (
+    draw_arm,
+    draw_axis_arrow,
+    draw_ground,
+    draw_joint,
+    draw_link,
+    draw_target,
+    keep_in_view,
+    leave_room,
+    new_axes,
+    show_plane,
+    write,
+)
+from .strokes_3d import arc_points, draw_angle_3d, draw_arrow_3d, draw_target_3d, write_3d
+from .style import (
+    AXIS_COLOURS,
+    AXIS_DASHES,
+    CENTRE_LINE,
+    FAINT,
+    INK,
+    LIMIT_DASHES,
+    POSTURE_SHADES,
+    SOFT,
+    in_degrees,
+    styled,
+)
+from .view import fit_3d, new_axes_3d, view_axes
 
-ALIGNED_STYLE = {"color": strokes.SOFT, "lw": 1, "ls": strokes.CENTRE_LINE}
+ALIGNED_STYLE = {"color": SOFT, "lw": 1, "ls": CENTRE_LINE}
 
 
 def _frames_and_path(table):
@@ -20,14 +47,6 @@ def _frames_and_path(table):
     for foot, frame in zip(feet, frames[1:]):
         path += [foot, frame[:3, 3]]
     return frames, np.array(path)
-
-
-def _view(ax) -> np.ndarray:
-    """Rows: the directions right, up and towards the reader of a 3D drawing."""
-    elev, azim = np.radians([ax.elev, ax.azim])
-    towards = np.array([np.cos(elev) * np.cos(azim), np.cos(elev) * np.sin(azim), np.sin(elev)])
-    right = np.array([-np.sin(azim), np.cos(azim), 0])
-    return np.array([right, np.cross(towards, right), towards])
 
 
 def _size(path) -> float:
@@ -41,19 +60,19 @@ def _draw_arm(ax, table, shade, shift=(0, 0, 0), size=None, width=7.0, zorder=3.
     """
     frames, path = _frames_and_path(table)
     size = size or _size(path)
-    shift, towards = np.asarray(shift, float), _view(ax)[2]
+    shift, towards = np.asarray(shift, float), view_axes(ax)[2]
     foot = np.array([0, 0, -0.3 * size])
     points = [shift + (foot if base else 0), *(shift + path)]
     if base:
         turn = np.linspace(0, 2 * np.pi, 40)
-        disc = 0.13 * size * np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
-        ax.plot(*(shift + foot + disc).T, color=strokes.INK, lw=1, zorder=zorder - 0.5)
-        ax.plot(*(shift + 1.8 * disc + foot).T, color=strokes.FAINT, lw=0.8, zorder=zorder - 0.5)
+        disc = arc_points(np.zeros(3), 0.13 * size, *np.eye(3)[:2], turn)
+        ax.plot(*(shift + foot + disc).T, color=INK, lw=1, zorder=zorder - 0.5)
+        ax.plot(*(shift + 1.8 * disc + foot).T, color=FAINT, lw=0.8, zorder=zorder - 0.5)
         points += list(shift + foot + 1.8 * disc[::10])
         # X1 halfway up the column: which way joint 1 has turned.
         nose = shift + 0.5 * foot
         arrow_end = nose + 0.16 * size * frames[1][:3, 0]
-        strokes.arrow_3d(ax, nose, arrow_end, width=1.6, zorder=zorder + 0.55, scale=8)
+        draw_arrow_3d(ax, nose, arrow_end, width=1.6, zorder=zorder + 0.55, scale=8)
     # Far parts first: mplot3d does not hide what lies behind.
     segments = list(zip([foot, *path] if base else path, path if base else path[1:]))
     segments = [(start, end) for start, end in segments if np.linalg.norm(end - start) > 1e-9]
@@ -61,13 +80,11 @@ def _draw_arm(ax, table, shade, shift=(0, 0, 0), size=None, width=7.0, zorder=3.
     low, spread = min(depths), max(np.ptp(depths), 1e-9)
     for (start, end), depth in zip(segments, depths):
         layer = zorder + 0.6 * (depth - low) / spread
-        for pen, colour in ((width, strokes.INK), (width - 2.2, shade)):
+        for pen, colour in ((width, INK), (width - 2.2, shade)):
             ax.plot(*zip(shift + start, shift + end), color=colour, lw=pen, solid_capstyle="round", zorder=layer)
     joints = np.unique(np.round(frames[1:, :3, 3], 9), axis=0)
     for at in joints:
-        ax.plot(
-            *(shift + at)[:, None], "o", ms=0.75 * width, mfc="white", mec=strokes.INK, mew=1.1, zorder=zorder + 0.7
-        )
+        ax.plot(*(shift + at)[:, None], "o", ms=0.75 * width, mfc="white", mec=INK, mew=1.1, zorder=zorder + 0.7)
     if len(frames) >= 7:
         points += _draw_wrist_and_hand(ax, frames, shift, 0.17 * size, zorder + 0.8)
     return points
@@ -78,14 +95,14 @@ def _draw_wrist_and_hand(ax, frames, shift, reach, zorder):
     last, centre = frames[-1], shift + frames[5][:3, 3]
     hand = shift + last[:3, 3]
     tip = hand + 0.75 * reach * last[:3, 2]
-    ax.plot(*zip(centre, tip), color=strokes.INK, lw=3, solid_capstyle="butt", zorder=zorder)
+    ax.plot(*zip(centre, tip), color=INK, lw=3, solid_capstyle="butt", zorder=zorder)
     jaw, ahead = 0.3 * reach * last[:3, 1], 0.4 * reach * last[:3, 2]
-    ax.plot(*zip(tip + jaw + ahead, tip + jaw, tip - jaw, tip - jaw + ahead), color=strokes.INK, lw=2, zorder=zorder)
+    ax.plot(*zip(tip + jaw + ahead, tip + jaw, tip - jaw, tip - jaw + ahead), color=INK, lw=2, zorder=zorder)
     ends = []
     for origin, direction, letter in ((centre, frames[5][:3, 2], "z"), (tip, last[:3, 0], "x")):
         ends.append(origin + reach * direction)
-        colour, dashes = strokes.AXIS_COLOURS[letter], strokes.AXIS_DASHES[letter]
-        strokes.arrow_3d(ax, origin, ends[-1], colour, dashes, width=1.5, zorder=zorder + 0.1, scale=9)
+        colour, dashes = AXIS_COLOURS[letter], AXIS_DASHES[letter]
+        draw_arrow_3d(ax, origin, ends[-1], colour, dashes, width=1.5, zorder=zorder + 0.1, scale=9)
     return [tip + ahead, tip + jaw, tip - jaw, *ends]
 
 
@@ -93,19 +110,12 @@ def _tables(tables) -> list:
     tables = list(tables)
     if not tables:
         raise ValueError("tables: expected at least one table, found none")
-    return [strokes.as_numbers(table, f"table {k + 1}", (None, 5)) for k, table in enumerate(tables)]
+    return [as_numbers(table, f"table {k + 1}", (None, 5)) for k, table in enumerate(tables)]
 
 
-def _names(names, count) -> list[str]:
-    names = [str(k + 1) for k in range(count)] if names is None else list(names)
-    if len(names) != count:
-        raise ValueError(f"names: expected {count}, found {len(names)}")
-    return names
-
-
-@strokes.styled
+@styled
 def draw_posture_gallery(tables, names=None, target=None, ax=None, *, columns=4, elev=18.0, azim=-62.0):
-    """Postures of one robot side by side, all from the same view and at the same scale.
+    """Draw postures of one robot side by side, all from the same view and at the same scale.
 
     The arrow on the column is X1: which way joint 1 has turned. A six-axis arm shows its hand with X6 (red, solid) and
     axis Z5 of the wrist (blue, dash-dotted), which tells the two postures of a wrist apart.
@@ -128,15 +138,15 @@ def draw_posture_gallery(tables, names=None, target=None, ax=None, *, columns=4,
     matplotlib Axes (3D)
     """
     tables = _tables(tables)
-    names = _names(names, len(tables))
-    own, ax = ax is None, ax or strokes.new_axes_3d(elev, azim)
-    right, up, _ = _view(ax)
+    names = as_names(names, len(tables), range(1, len(tables) + 1))
+    own, ax = ax is None, ax or new_axes_3d(elev, azim)
+    right, up, _ = view_axes(ax)
     chains = [_frames_and_path(table) for table in tables]
     scale = max(_size(path) for _, path in chains)
     # Room that any of the arms needs, measured in the plane of the paper.
     reach = [np.vstack([path, frames[-1, :3, 3] + 0.2 * scale * frames[-1, :3, :3].T]) for frames, path in chains]
     if target is not None:
-        target = strokes.as_numbers(target, "target", (3,))
+        target = as_numbers(target, "target", (3,))
         reach.append(target[None])
     seen = np.vstack(reach) @ np.array([right, up]).T
     wide = max(np.ptp(seen[:, 0]), 0.5 * scale) + 0.22 * scale
@@ -146,22 +156,21 @@ def draw_posture_gallery(tables, names=None, target=None, ax=None, *, columns=4,
     for k, (table, name) in enumerate(zip(tables, names)):
         row, column = divmod(k, columns)
         shift = column * wide * right - row * high * up
-        points += _draw_arm(ax, table, strokes.POSTURE_SHADES[1], shift, scale)
+        points += _draw_arm(ax, table, POSTURE_SHADES[1], shift, scale)
         if target is not None:
-            ax.plot(*(shift + target)[:, None], marker="o", ms=13, mfc="none", mec=strokes.INK, mew=1.2, zorder=7)
-            ax.plot(*(shift + target)[:, None], marker="+", ms=18, color=strokes.INK, mew=1.2, zorder=7)
+            draw_target_3d(ax, shift + target)
             points.append(shift + target)
         at = shift + (foot - 0.1 * scale) * up
-        strokes.write_3d(ax, at, name, fontsize=9.5)
+        write_3d(ax, at, name, fontsize=9.5)
         points += [at - 0.08 * scale * up + side * 0.4 * wide * right for side in (-1, 1)]
     used = min(columns, len(tables))
-    strokes.fit_3d(ax, points, own, width=2.35 * used + 0.4, height=2.9 * -(-len(tables) // columns) + 0.4, pad=0.1)
+    fit_3d(ax, points, own, width=2.35 * used + 0.4, height=2.9 * -(-len(tables) // columns) + 0.4, pad=0.1)
     return ax
 
 
-@strokes.styled
+@styled
 def draw_posture_family(tables, ax=None, *, elev=20.0, azim=-62.0):
-    """Members of one family of postures over each other: the hand stays, the arm moves. Darker means later.
+    """Draw members of one family of postures over each other: the hand stays, the arm moves. Darker means later.
 
     Parameters
     ----------
@@ -175,18 +184,18 @@ def draw_posture_family(tables, ax=None, *, elev=20.0, azim=-62.0):
     matplotlib Axes (3D)
     """
     tables = _tables(tables)
-    own, ax = ax is None, ax or strokes.new_axes_3d(elev, azim)
+    own, ax = ax is None, ax or new_axes_3d(elev, azim)
     points, greys = [], np.linspace(0.93, 0.5, len(tables))
     for k, (table, grey) in enumerate(zip(tables, greys)):
         last = k == len(tables) - 1
         points += _draw_arm(ax, table, str(grey), zorder=3 + k, base=last)
-    strokes.fit_3d(ax, points, own, width=5.2, height=4.6)
+    fit_3d(ax, points, own, width=5.2, height=4.6)
     return ax
 
 
-@strokes.styled
+@styled
 def draw_arm_plane(lengths, solutions, target=None, ax=None):
-    """An elbow arm in its own vertical plane, which holds axis 1: the point in front, the arm in all its postures.
+    """Draw an elbow arm in its own vertical plane, which holds axis 1: the point in front, the arm in all its postures.
 
     To the right is the side of the target. A posture whose joint 1 has turned half round reaches it backwards.
 
@@ -204,56 +213,50 @@ def draw_arm_plane(lengths, solutions, target=None, ax=None):
     matplotlib Axes
         Horizontal: distance from axis 1; vertical: z.
     """
-    lengths = strokes.as_lengths(lengths, "lengths", (2,))
-    rows = strokes.as_numbers(np.empty((0, 3)) if np.size(solutions) == 0 else solutions, "solutions", (None, 3))
+    lengths = as_lengths(lengths, "lengths", (2,))
+    rows = as_rows(solutions, "solutions", 3)
     if target is None and not len(rows):
         raise ValueError("target: expected 3 numbers where no solution is given")
-    ax = ax or strokes.new_axes((6.2, 4.4))
-    strokes.show_plane(ax, labels=("distance from axis 1 (m)", "z (m)"))
+    ax = ax or new_axes((6.2, 4.4))
+    show_plane(ax, labels=("distance from axis 1 (m)", "z (m)"))
     total = lengths.sum()
     if target is not None:
-        goal = strokes.as_numbers(target, "target", (3,))
+        goal = as_numbers(target, "target", (3,))
         ahead = np.arctan2(goal[1], goal[0])
         goal = np.array([np.hypot(*goal[:2]), goal[2]])
     else:
-        flat = planar_points(lengths, rows[0, 1:])[2]
+        flat = planar_joints(lengths, rows[0, 1:])[2]
         ahead = rows[0, 0] + (0 if flat[0] >= 0 else np.pi)
         goal = np.array([abs(flat[0]), flat[1]])
-    top = max(goal[1], 0.4 * total, *(planar_points(lengths, row[1:])[:, 1].max() for row in rows)) + 0.15 * total
+    top = max(goal[1], 0.4 * total, *(planar_joints(lengths, row[1:])[:, 1].max() for row in rows)) + 0.15 * total
     ax.plot([0, 0], [-0.5 * total, top], zorder=1, **ALIGNED_STYLE)
-    strokes.write(ax, (0, top + 0.06 * total), "axis 1", fontsize=9)
-    ax.plot([0, 0], [-0.5 * total, 0], color=strokes.INK, lw=9, zorder=2, solid_capstyle="butt")
-    ax.plot([0, 0], [-0.5 * total, 0], color=strokes.FAINT, lw=6.6, zorder=2.1, solid_capstyle="butt")
-    strokes.ground(ax, (0, -0.5 * total), 0.34 * total, 0.05 * total)
+    write(ax, (0, top + 0.06 * total), "axis 1", fontsize=9)
+    ax.plot([0, 0], [-0.5 * total, 0], color=INK, lw=9, zorder=2, solid_capstyle="butt")
+    ax.plot([0, 0], [-0.5 * total, 0], color=FAINT, lw=6.6, zorder=2.1, solid_capstyle="butt")
+    draw_ground(ax, (0, -0.5 * total), 0.34 * total, 0.05 * total)
     boxes, labels, elbows = [], [], {}
     for k, (t1, t2, t3) in enumerate(rows):
         back = np.cos(t1 - ahead) < 0
-        points = planar_points(lengths, (t2, t3)) * (-1 if back else 1, 1)
-        fill = strokes.POSTURE_SHADES[k % len(strokes.POSTURE_SHADES)]
-        strokes.arm(ax, points, fill, zorder=3 + k)
+        points = planar_joints(lengths, (t2, t3)) * (-1 if back else 1, 1)
+        fill = POSTURE_SHADES[k % len(POSTURE_SHADES)]
+        draw_arm(ax, points, fill, zorder=3 + k)
         elbows.setdefault(tuple(np.round(points[1:].ravel(), 6)), []).append(str(k + 1))
-        boxes.append(Rectangle((0, 0), 1, 1, facecolor=fill, edgecolor=strokes.INK))
+        boxes.append(Rectangle((0, 0), 1, 1, facecolor=fill, edgecolor=INK))
         names = zip(("t_1", "t_2", "t_3"), (t1, t2, t3))
-        labels.append(f"{k + 1}:  " + ",  ".join(f"${name}$ = {strokes.in_degrees(_wrapped(t))}" for name, t in names))
+        labels.append(f"{k + 1}:  " + ",  ".join(f"${name}$ = {in_degrees(wrap(t))}" for name, t in names))
     for (*elbow, x, y), owners in elbows.items():
         out = np.array(elbow) - 0.5 * np.array([x, y])
-        strokes.write(
-            ax, elbow + 0.13 * total * out / (np.hypot(*out) or 1), ", ".join(owners), fontweight="bold", zorder=20
-        )
-    strokes.target_mark(ax, goal)
-    strokes.leave_room(ax, 0.16 * total)
+        write(ax, elbow + 0.13 * total * out / (np.hypot(*out) or 1), ", ".join(owners), fontweight="bold", zorder=20)
+    draw_target(ax, goal)
+    leave_room(ax, 0.16 * total)
     if boxes:
         ax.legend(boxes, labels, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2, handlelength=1.4)
     return ax
 
 
-def _wrapped(angle):
-    return (angle + np.pi) % (2 * np.pi) - np.pi
-
-
-@strokes.styled
+@styled
 def draw_shoulder_top(offset, target, turns=None, ax=None, *, offset_name="d_2"):
-    """A laterally offset arm from above: planes that keep `offset` from axis 1, by default the two through the target.
+    """Draw a laterally offset arm from above: its planes keep a distance from axis 1, by default through the target.
 
     Parameters
     ----------
@@ -269,47 +272,47 @@ def draw_shoulder_top(offset, target, turns=None, ax=None, *, offset_name="d_2")
     -------
     matplotlib Axes
     """
-    offset = float(strokes.as_lengths([offset], "offset", (1,))[0])
-    goal = strokes.as_numbers(target, "target", (2,))
+    offset = float(as_lengths([offset], "offset", (1,))[0])
+    goal = as_numbers(target, "target", (2,))
     r = np.hypot(*goal)
     if r <= offset:
         raise ValueError(f"target: expected a point outside the circle of radius {offset:.3g}, found one at {r:.3g}")
     ahead, length = np.arctan2(*goal[::-1]), np.sqrt(r**2 - offset**2)
     both = [(ahead - np.arctan2(offset, a), a) for a in (length, -length)]
-    turns = both if turns is None else strokes.as_numbers(turns, "turns", (None, 2))
-    ax = ax or strokes.new_axes((5.4, 4.6))
-    strokes.show_plane(ax)
-    ax.add_patch(Circle((0, 0), offset, facecolor="#eeeeee", edgecolor=strokes.INK, lw=1.2, ls=(0, (5, 2)), zorder=1))
-    ax.plot(*zip((0, 0), goal), color=strokes.INK, lw=1.1, ls=strokes.CENTRE_LINE, zorder=2)
+    turns = both if turns is None else as_numbers(turns, "turns", (None, 2))
+    ax = ax or new_axes((5.4, 4.6))
+    show_plane(ax)
+    ax.add_patch(Circle((0, 0), offset, facecolor="#eeeeee", edgecolor=INK, lw=1.2, ls=LIMIT_DASHES, zorder=1))
+    ax.plot(*zip((0, 0), goal), color=INK, lw=1.1, ls=CENTRE_LINE, zorder=2)
     for k, (t1, a) in enumerate(turns):
-        out, along = strokes.unit_vector(t1 + np.pi / 2), np.sign(a) * strokes.unit_vector(t1)
+        out, along = unit_vector(t1 + np.pi / 2), np.sign(a) * unit_vector(t1)
         foot = offset * out
-        fill = strokes.POSTURE_SHADES[k % len(strokes.POSTURE_SHADES)]
-        strokes.link(ax, (0, 0), foot, fill, width=10, zorder=3)
-        strokes.link(ax, foot, foot + abs(a) * along, fill, width=10, zorder=3.2)
+        fill = POSTURE_SHADES[k % len(POSTURE_SHADES)]
+        draw_link(ax, (0, 0), foot, fill, width=10, zorder=3)
+        draw_link(ax, foot, foot + abs(a) * along, fill, width=10, zorder=3.2)
         corner = 0.26 * offset
         ax.plot(
             *zip(foot + corner * along, foot + corner * (along - out), foot - corner * out),
-            color=strokes.INK,
+            color=INK,
             lw=0.9,
             zorder=2,
         )
-        strokes.write(ax, foot + 0.5 * abs(a) * along + 0.32 * offset * out, f"{k + 1}", fontweight="bold")
-        strokes.write(ax, foot / 2 - 0.24 * offset * along, f"${offset_name}$")
-    strokes.joint(ax, (0, 0), zorder=6)
-    strokes.target_mark(ax, goal)
-    strokes.write(ax, goal + 0.4 * offset * strokes.unit_vector(ahead), "$(W_x, W_y)$", ha="left", zorder=10)
-    strokes.write(ax, 0.52 * goal + 0.16 * offset * strokes.unit_vector(ahead + np.pi / 2), "$r$")
+        write(ax, foot + 0.5 * abs(a) * along + 0.32 * offset * out, f"{k + 1}", fontweight="bold")
+        write(ax, foot / 2 - 0.24 * offset * along, f"${offset_name}$")
+    draw_joint(ax, (0, 0), zorder=6)
+    draw_target(ax, goal)
+    write(ax, goal + 0.4 * offset * unit_vector(ahead), "$(W_x, W_y)$", ha="left", zorder=10)
+    write(ax, 0.52 * goal + 0.16 * offset * unit_vector(ahead + np.pi / 2), "$r$")
     for letter, angle in (("x", 0), ("y", np.pi / 2)):
-        strokes.axis_arrow(ax, (0, 0), angle, 1.7 * offset, letter, f"{letter}_0", away=0.14)
-    strokes.leave_room(ax, 0.8 * offset)
-    strokes.keep_in_view(ax, goal, 1.6 * offset)
+        draw_axis_arrow(ax, (0, 0), angle, 1.7 * offset, letter, f"{letter}_0", away=0.14)
+    leave_room(ax, 0.8 * offset)
+    keep_in_view(ax, goal, 1.6 * offset)
     return ax
 
 
-@strokes.styled
+@styled
 def draw_aligned_wrist(angles, total=0.0, ax=None):
-    """A spherical wrist with axis 6 on axis 4: forearm and hand stay while the wrist turns between them.
+    """Draw a spherical wrist with axis 6 on axis 4: forearm and hand stay while the wrist turns between them.
 
     Parameters
     ----------
@@ -322,50 +325,47 @@ def draw_aligned_wrist(angles, total=0.0, ax=None):
     -------
     matplotlib Axes (3D)
     """
-    angles = strokes.as_numbers(angles, "angles", (None,))
+    angles = as_numbers(angles, "angles", (None,))
     if not len(angles):
         raise ValueError("angles: expected at least one value of t4, found none")
-    total = float(strokes.as_numbers(total, "total", ()))
-    own, ax = ax is None, ax or strokes.new_axes_3d(elev=24, azim=-58)
+    total = float(as_numbers(total, "total", ()))
+    own, ax = ax is None, ax or new_axes_3d(elev=24, azim=-58)
     along, side, up = np.eye(3)  # axes 4 and 6 along x
     ax.plot(*zip(-1.75 * along, 2.2 * along), zorder=1, **ALIGNED_STYLE)
-    strokes.write_3d(ax, 2.42 * along, "$Z_4, Z_6$", color=strokes.AXIS_COLOURS["z"])
-    for width, colour, rim in ((22, strokes.INK, 0.02), (19, strokes.POSTURE_SHADES[0], 0)):
+    write_3d(ax, 2.42 * along, "$Z_4, Z_6$", color=AXIS_COLOURS["z"])
+    for width, colour, rim in ((22, INK, 0.02), (19, POSTURE_SHADES[0], 0)):
         ends = (-1.6 - rim) * along, (-0.42 + rim) * along
         ax.plot(*zip(*ends), color=colour, lw=width, solid_capstyle="butt", zorder=2)
-    strokes.write_3d(ax, -1.2 * along - 0.45 * up, "forearm", fontsize=9)
+    write_3d(ax, -1.2 * along - 0.45 * up, "forearm", fontsize=9)
     greys = [str(grey) for grey in np.linspace(0.8, 0.25, len(angles))]
     for k, (t4, grey) in enumerate(zip(angles, greys)):
-        axis5 = np.cos(t4) * side + np.sin(t4) * up
+        axis5 = unit_vector(t4) @ [side, up]
         last = k == len(angles) - 1
-        colour = strokes.AXIS_COLOURS["z"] if last else grey
+        colour = AXIS_COLOURS["z"] if last else grey
         ax.plot(*zip(-0.75 * axis5, (0, 0, 0)), color=grey, lw=5 if last else 3, zorder=3 + 0.1 * k)
-        strokes.arrow_3d(
-            ax, 0 * along, 0.95 * axis5, colour, strokes.AXIS_DASHES["z"] if last else "-", zorder=3.05 + 0.1 * k
-        )
+        draw_arrow_3d(ax, 0 * along, 0.95 * axis5, colour, AXIS_DASHES["z"] if last else "-", zorder=3.05 + 0.1 * k)
         if last:
-            strokes.write_3d(ax, 1.14 * axis5, "$Z_5$", color=colour)
-    ax.plot([0], [0], [0], "o", ms=11, mfc="white", mec=strokes.INK, mew=1.4, zorder=4.5)
-    ax.plot(*zip(0.1 * along, 1.35 * along), color=strokes.INK, lw=4, solid_capstyle="butt", zorder=4)
-    jaw = np.cos(total) * up - np.sin(total) * side  # Y6
+            write_3d(ax, 1.14 * axis5, "$Z_5$", color=colour)
+    ax.plot([0], [0], [0], "o", ms=11, mfc="white", mec=INK, mew=1.4, zorder=4.5)
+    ax.plot(*zip(0.1 * along, 1.35 * along), color=INK, lw=4, solid_capstyle="butt", zorder=4)
+    x6, jaw = unit_vector([total, total + np.pi / 2]) @ [side, up]  # the jaw slides along Y6
     tip = 1.35 * along
     ax.plot(*zip(tip + 0.32 * jaw + 0.35 * along, tip + 0.32 * jaw, tip - 0.32 * jaw, tip - 0.32 * jaw + 0.35 * along),
-            color=strokes.INK, lw=2.6, zorder=4)  # fmt: skip
-    x6 = np.cos(total) * side + np.sin(total) * up
-    strokes.arrow_3d(ax, tip, tip + 0.8 * x6, strokes.AXIS_COLOURS["x"], zorder=5)
-    strokes.write_3d(ax, tip + 1.0 * x6, "$X_6$", color=strokes.AXIS_COLOURS["x"])
-    strokes.angle_arc_3d(ax, -0.95 * along, side, up, 0.55, 1.9, "")
-    strokes.angle_arc_3d(ax, 0.85 * along, side, up, 0.45, -1.9, "")
-    strokes.write_3d(ax, -0.95 * along + 0.85 * up, r"$+\delta$ at joint 4")
-    strokes.write_3d(ax, 0.85 * along - 0.72 * up, r"$-\delta$ at joint 6")
+            color=INK, lw=2.6, zorder=4)  # fmt: skip
+    draw_arrow_3d(ax, tip, tip + 0.8 * x6, AXIS_COLOURS["x"], zorder=5)
+    write_3d(ax, tip + 1.0 * x6, "$X_6$", color=AXIS_COLOURS["x"])
+    draw_angle_3d(ax, -0.95 * along, side, up, 0.55, 1.9, "")
+    draw_angle_3d(ax, 0.85 * along, side, up, 0.45, -1.9, "")
+    write_3d(ax, -0.95 * along + 0.85 * up, r"$+\delta$ at joint 4")
+    write_3d(ax, 0.85 * along - 0.72 * up, r"$-\delta$ at joint 6")
     points = [-1.8 * along, 2.7 * along, *(1.25 * sign * v for sign in (-1, 1) for v in (side, up)), tip + 1.1 * x6]
-    strokes.fit_3d(ax, points, own, width=5.6, height=3.8)
+    fit_3d(ax, points, own, width=5.6, height=3.8)
     return ax
 
 
-@strokes.styled
+@styled
 def draw_planar_family(lengths, solutions, target, ax=None):
-    """Many postures of a planar arm of n links that all reach one point. Darker means later.
+    """Draw many postures of a planar arm of n links that all reach one point. Darker means later.
 
     Parameters
     ----------
@@ -377,13 +377,13 @@ def draw_planar_family(lengths, solutions, target, ax=None):
     -------
     matplotlib Axes
     """
-    lengths = strokes.as_lengths(lengths, "lengths", (None,))
-    rows = strokes.as_numbers(solutions, "solutions", (None, len(lengths)))
-    goal = strokes.as_numbers(target, "target", (2,))
-    ax = ax or strokes.new_axes((5.2, 4.2))
-    strokes.show_plane(ax)
+    lengths = as_lengths(lengths, "lengths", (None,))
+    rows = as_numbers(solutions, "solutions", (None, len(lengths)))
+    goal = as_numbers(target, "target", (2,))
+    ax = ax or new_axes((5.2, 4.2))
+    show_plane(ax)
     for k, (row, grey) in enumerate(zip(rows, np.linspace(0.93, 0.5, max(len(rows), 1)))):
-        strokes.arm(ax, planar_points(lengths, row), str(grey), zorder=3 + k, width=9)
-    strokes.target_mark(ax, goal)
-    strokes.leave_room(ax, 0.12 * lengths.sum())
+        draw_arm(ax, planar_joints(lengths, row), str(grey), zorder=3 + k, width=9)
+    draw_target(ax, goal)
+    leave_room(ax, 0.12 * lengths.sum())
     return ax

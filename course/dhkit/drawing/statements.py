@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from matplotlib.lines import Line2D
 
-from .. import strokes
+from .inputs import as_numbers
+from .strokes import new_axes
+from .style import FAINT, INK, styled
 
 
-@strokes.styled
+@styled
 def draw_marks_by_line(marks, ax=None, *, kinds=("error", "ambiguity")):
-    """One strip per document, with a mark at every line where something stands: full for the first kind, open for the second.
+    """Draw one strip per document with a mark at every line where something stands, full or open by its kind.
 
     Parameters
     ----------
@@ -23,16 +25,15 @@ def draw_marks_by_line(marks, ax=None, *, kinds=("error", "ambiguity")):
     matplotlib Axes
     """
     lines = {
-        name: [strokes.as_numbers(list(part), f"lines of {name}", (None,)) for part in parts]
-        for name, parts in marks.items()
+        name: [as_numbers(list(part), f"lines of {name}", (None,)) for part in parts] for name, parts in marks.items()
     }
-    ax = ax or strokes.new_axes((8.6, 0.55 * len(lines) + 1.3))
+    ax = ax or new_axes((8.6, 0.55 * len(lines) + 1.3))
     styles = (
-        {"marker": "o", "ms": 6, "mfc": strokes.INK, "mec": strokes.INK},
-        {"marker": "o", "ms": 6, "mfc": "white", "mec": strokes.INK, "mew": 1.4},
+        {"marker": "o", "ms": 6, "mfc": INK, "mec": INK},
+        {"marker": "o", "ms": 6, "mfc": "white", "mec": INK, "mew": 1.4},
     )
     for height, parts in enumerate(lines.values()):
-        ax.axhline(height, color=strokes.FAINT, lw=1, zorder=1)
+        ax.axhline(height, color=FAINT, lw=1, zorder=1)
         for part, style in zip(parts, styles):
             ax.plot(part, [height] * len(part), ls="none", zorder=3, **style)
     ax.set_yticks(

@@ -1,4 +1,4 @@
-"""A student's inverse models: postures side by side, each with its miss; the shoulder from above; singular and free directions."""
+"""A student's inverse models: postures with their misses, the shoulder from above, singular and free directions."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ import sympy
 
 from ..drawing.chains import chain_frames, draw_chain
 from ..drawing.postures import draw_posture_family, draw_posture_gallery, draw_shoulder_top
-from ..strokes import INK, SOFT
+from ..drawing.style import DASHED, INK, SOFT
+from ..geometry import rotation_angle_between
 from .own_result import called, card, entries, numbers, own_result
 
 MOST = 16  # postures drawn
@@ -16,7 +17,7 @@ MOST = 16  # postures drawn
 
 @own_result
 def show_all_postures(solutions, table, target):
-    """Joint solutions of a robot side by side, each with the distance by which it misses the target.
+    """Show joint solutions of a robot side by side, each with the distance by which it misses the target.
 
     Parameters
     ----------
@@ -48,7 +49,7 @@ def show_all_postures(solutions, table, target):
 
 @own_result
 def show_inverse_of_pose(inverse, table, pose, *lengths):
-    """`show_all_postures` for what a student's function ``inverse(pose, *lengths)`` returns."""
+    """Show what a student's function ``inverse(pose, *lengths)`` returns, as `show_all_postures` does."""
     found = called(inverse, np.array(pose, dtype=float), *lengths)
     return show_all_postures(found, table, pose) if len(found) else card("no solution given")
 
@@ -61,7 +62,7 @@ def _miss(table, target) -> str:
     if (far := np.linalg.norm(hand[:3, 3] - point)) > 1e-4:
         parts.append(f"{far:.3f} m off")
     if target.shape == (4, 4):
-        turn = np.degrees(np.arccos(np.clip((np.trace(hand[:3, :3].T @ target[:3, :3]) - 1) / 2, -1, 1)))
+        turn = np.degrees(rotation_angle_between(hand[:3, :3], target[:3, :3]))
         if turn > 0.05:
             parts.append(f"{turn:.1f}° off")
     return "\n".join(parts) or "on the target"
@@ -69,7 +70,7 @@ def _miss(table, target) -> str:
 
 @own_result
 def show_shoulder(expression, offset, target):
-    """The shoulder of a PUMA-like arm from above, turned as a formula for t1 says, for both signs of A.
+    """Show the shoulder of a PUMA-like arm from above, turned as a formula for t1 says, for both signs of A.
 
     Parameters
     ----------
@@ -91,7 +92,7 @@ def show_shoulder(expression, offset, target):
 
 @own_result
 def show_repaired_row(answer, rows, values):
-    """The robot of a table in which one row is replaced by the answer, with its joint axes.
+    """Show the robot of a table in which one row is replaced by the answer, with its joint axes.
 
     Parameters
     ----------
@@ -115,7 +116,7 @@ def show_repaired_row(answer, rows, values):
 
 @own_result
 def show_determinant(expression, lengths):
-    """The determinant of an elbow arm over t2 and t3; the lines on which it vanishes are drawn in ink.
+    """Show the determinant of an elbow arm over t2 and t3; the lines on which it vanishes are drawn in ink.
 
     Parameters
     ----------
@@ -144,7 +145,7 @@ def show_determinant(expression, lengths):
     ax.figure.colorbar(shade, ax=ax, label="your determinant (m³)")
     if values.min() < 0 < values.max():
         ax.contour(np.degrees(t2), np.degrees(t3), values, [0], colors=INK, linewidths=2)
-    ax.axhline(0, color=SOFT, lw=0.8, ls=(0, (3, 2)))
+    ax.axhline(0, color=SOFT, lw=0.8, ls=DASHED)
     ticks = (-180, -90, 0, 90, 180)
     ax.set(xlabel=r"$\theta_2$ (degrees)", ylabel=r"$\theta_3$ (degrees)", xticks=ticks, yticks=ticks)
     return ax
@@ -152,7 +153,7 @@ def show_determinant(expression, lengths):
 
 @own_result
 def show_free_direction(direction, table, q):
-    """A robot moved to and fro along a direction of its joint space, and how far the hand goes with it.
+    """Show a robot moved to and fro along a direction of its joint space, and how far the hand goes with it.
 
     Parameters
     ----------
@@ -170,10 +171,8 @@ def show_free_direction(direction, table, q):
     step = step / np.linalg.norm(step)
     moved = [table(*(np.array(q) + angle * step)) for angle in (-0.6, -0.2, 0.2, 0.6)]
     hands = np.array([chain_frames(each)[-1] for each in moved])
-    far = max(np.linalg.norm(hand[:3, 3] - hands[0, :3, 3]) for hand in hands)
-    turn = max(
-        np.degrees(np.arccos(np.clip((np.trace(hand[:3, :3].T @ hands[0, :3, :3]) - 1) / 2, -1, 1))) for hand in hands
-    )
+    far = np.linalg.norm(hands[:, :3, 3] - hands[0, :3, 3], axis=1).max()
+    turn = np.degrees(rotation_angle_between(hands[:, :3, :3], hands[0, :3, :3])).max()
     ax = draw_posture_family(moved)
     rest = far < 1e-6 and turn < 1e-3
     ax.figure.text(

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 import sympy
 
-from ..drawing.orientation import draw_gimbal, turned
+from ..drawing.gimbal import draw_gimbal
+from ..drawing.orientation import turn_in_steps
 from .own_result import called, entries, numbers, own_result
 
 JOINT_NAMES = (r"\theta_4", r"\theta_5", r"\theta_6")
@@ -17,7 +18,7 @@ RPY = ("roll", "pitch", "yaw")
 
 @own_result
 def show_rotation(answer, axes: str, values: dict[str, float], order: Sequence[str]):
-    """The axes of a rotation matrix, in grey, over the rings at the same angles.
+    """Show the axes of a rotation matrix, in grey, over the rings at the same angles.
 
     Parameters
     ----------
@@ -48,7 +49,7 @@ def show_rotation(answer, axes: str, values: dict[str, float], order: Sequence[s
 
 @own_result
 def show_rpy_entries(answer, values: dict[str, float]):
-    """The matrix of roll, pitch and yaw with two entries [r22, r23] filled in, in grey, over the rings.
+    """Show the matrix of roll, pitch and yaw with two entries [r22, r23] filled in, in grey, over the rings.
 
     Parameters
     ----------
@@ -64,7 +65,7 @@ def show_rpy_entries(answer, values: dict[str, float]):
     found = [answer[name] for name in ("r22", "r23")] if isinstance(answer, dict) else answer
     r22, r23 = numbers(found, "r22, r23", (2,), values)
     order = ("psi", "theta", "phi")
-    matrix = turned([values[name] for name in order], "zyx")[-1]
+    matrix = turn_in_steps([values[name] for name in order], "zyx")[-1]
     matrix[1, 1:] = r22, r23
     return show_rotation(matrix, "zyx", values, order)
 
@@ -73,7 +74,7 @@ def show_rpy_entries(answer, values: dict[str, float]):
 def show_triples(
     answer, axes: str, rotation, order: Sequence[int] = (0, 1, 2), names=None, grey="the wanted orientation"
 ):
-    """Triples of angles on the rings, one drawing each, with the axes of another orientation in grey.
+    """Show triples of angles on the rings, one drawing each, with the axes of another orientation in grey.
 
     Parameters
     ----------
@@ -104,7 +105,7 @@ def show_triples(
 
 @own_result
 def show_wrist_formulas(answer, axes: str, angles=(0.6, 0.5, 0.4)):
-    """Formulas for the three angles of a wrist, tried on one orientation with both signs e.
+    """Show formulas for the three angles of a wrist, tried on one orientation with both signs e.
 
     Parameters
     ----------
@@ -119,7 +120,7 @@ def show_wrist_formulas(answer, axes: str, angles=(0.6, 0.5, 0.4)):
     matplotlib Axes (3D)
         Both bricks belong on the grey axes.
     """
-    rotation = turned(angles, axes)[-1]
+    rotation = turn_in_steps(angles, axes)[-1]
     values = {f"r{i + 1}{j + 1}": rotation[i, j] for i in range(3) for j in range(3)}
     found = answer.tolist() if isinstance(answer, sympy.MatrixBase) else list(answer)
     rows = [numbers(found, "angles", (3,), values | {"e": sign}) for sign in (1.0, -1.0)]
@@ -130,7 +131,7 @@ def show_wrist_formulas(answer, axes: str, angles=(0.6, 0.5, 0.4)):
 
 @own_result
 def show_wrist(inverse, axes: str = "zyz"):
-    """What an inverse model of a wrist returns for a bent and for a stretched wrist: the first triple of each.
+    """Show what an inverse model of a wrist returns for a bent and for a stretched wrist: the first triple of each.
 
     Parameters
     ----------
@@ -144,7 +145,7 @@ def show_wrist(inverse, axes: str = "zyz"):
         Every brick belongs on the grey axes.
     """
     tried = {"bent": (1.2, 1.1, 0.4), "stretched": (0.9, 0.0, 0.6), "folded back": (0.9, np.pi, 0.3)}
-    wanted = [np.round(turned(angles, axes)[-1], 12) + 0.0 for angles in tried.values()]
+    wanted = [np.round(turn_in_steps(angles, axes)[-1], 12) + 0.0 for angles in tried.values()]
     found = [called(inverse, matrix.tolist()) for matrix in wanted]
     rows = [numbers([list(row) for row in triples], "triples", (None, 3), {}) for triples in found]
     if not all(len(each) for each in rows):

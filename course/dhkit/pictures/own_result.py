@@ -1,4 +1,4 @@
-"""What every picture of a student's result shares: numbers out of an answer, and a card where there is nothing to draw."""
+"""What all pictures of a student's result share: numbers out of an answer, and a card where nothing can be drawn."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ import numpy as np
 import sympy
 from matplotlib.patches import Rectangle
 
-from ..strokes import SOFT, as_numbers, styled
+from ..drawing.inputs import as_numbers
+from ..drawing.style import SOFT, styled
 
 
 class NotAttempted(Exception):
@@ -61,6 +62,7 @@ def attempted(answer):
 
 
 def entries(answer) -> list:
+    """The entries of an answer as a flat list."""
     if isinstance(answer, (sympy.MatrixBase, np.ndarray)):
         return entries(answer.tolist())
     if isinstance(answer, (list, tuple)):
@@ -69,10 +71,26 @@ def entries(answer) -> list:
 
 
 def numbers(answer, what: str, shape: tuple, values: dict[str, float]) -> np.ndarray:
-    """The answer as floats, with `values` put in for its symbols by name."""
+    """An answer as floats.
+
+    Parameters
+    ----------
+    answer : nested lists, SymPy or NumPy arrays of numbers and SymPy expressions
+    what : str
+        What it is, for the error message.
+    shape : tuple
+        The awaited shape; None stands for any size. A vector may also be a single row or column.
+    values : dict
+        Numbers for the symbols, by name.
+
+    Raises
+    ------
+    ValueError
+        If the answer has another form, or symbols without a value.
+    """
 
     def number(entry):
-        entry = entry.tolist() if isinstance(entry, np.ndarray) else entry
+        entry = entry.tolist() if isinstance(entry, (sympy.MatrixBase, np.ndarray)) else entry
         if isinstance(entry, (list, tuple)):
             return [number(item) for item in entry]
         entry = sympy.sympify(entry)
@@ -83,20 +101,36 @@ def numbers(answer, what: str, shape: tuple, values: dict[str, float]) -> np.nda
             )
         return float(entry.subs({symbol: values[symbol.name] for symbol in entry.free_symbols}))
 
-    nested = answer.tolist() if isinstance(answer, (sympy.MatrixBase, np.ndarray)) else answer
-    array = np.array(number(nested))
+    array = np.array(number(answer))
     if len(shape) == 1 and array.ndim == 2 and 1 in array.shape:
         array = array.reshape(-1)
     return as_numbers(array, what, shape)
 
 
+def numbers_in_rows(answer, what: str, width: int) -> np.ndarray:
+    """An answer of several rows, of a single one, or of none, as floats: shape (k, width)."""
+    found = entries(answer)
+    if not found:
+        return np.empty((0, width))
+    return numbers([found] if len(found) == width else [list(row) for row in answer], what, (None, width), {})
+
+
 def called(function, *arguments):
     """What a student's function returns; returning nothing counts as not attempted."""
-    result = _function(function)(*arguments)
+    if not callable(function):
+        raise ValueError(f"expected a function, found {type(function).__name__}")
+    result = function(*arguments)
     return [] if isinstance(result, (list, tuple, np.ndarray)) and len(result) == 0 else attempted(result)
 
 
-def _function(answer):
-    if not callable(answer):
-        raise ValueError(f"expected a function, found {type(answer).__name__}")
-    return answer
+def say_if_not_rigid(ax, frame):
+    """Write below the picture what keeps `frame`, shape (4, 4), from being a rigid displacement, if anything does."""
+    rotation = frame[:3, :3]
+    rigid = np.allclose(rotation.T @ rotation, np.eye(3), atol=1e-6) and np.allclose(frame[3], (0, 0, 0, 1), atol=1e-6)
+    if not rigid:
+        fault = "the axes are not orthogonal unit vectors"
+    elif np.linalg.det(rotation) < 0:
+        fault = "the axes are left-handed, a mirror image"
+    else:
+        return
+    ax.figure.text(0.5, 0.01, f"not a rigid displacement: {fault}", ha="center")

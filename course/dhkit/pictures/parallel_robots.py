@@ -6,15 +6,15 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Circle
 
-from .. import drawing
 from ..drawing.parallel import draw_3rpr, draw_3rrr, draw_assembly_modes, draw_leg_lines, platform_points
-from ..strokes import AXIS_COLOURS, INK, SOFT, halo
-from .own_result import called, entries, numbers, own_result
+from ..drawing.planar import mark_target
+from ..drawing.style import AXIS_COLOURS, HALO, INK, SOFT
+from .own_result import called, numbers, numbers_in_rows, own_result
 
 
 @own_result
 def show_platform_joint(answer, base, platform, values: dict[str, float], number: int = 2):
-    """A formula for a joint of the platform, over the robot in the pose given by `values`.
+    """Show a formula for a joint of the platform, over the robot in the pose given by `values`.
 
     The cross belongs on the joint B_number.
 
@@ -34,12 +34,12 @@ def show_platform_joint(answer, base, platform, values: dict[str, float], number
     point = dict(zip("uv", map(float, platform[number - 1])))
     at = numbers(answer, "joint", (2,), values | point)
     ax = draw_3rpr(base, platform, [values[name] for name in ("x", "y", "phi")])
-    return drawing.mark_target(ax, at, "your result")
+    return mark_target(ax, at, "your result")
 
 
 @own_result
 def show_leg_lengths(leg_lengths, base, platform, pose):
-    """Circles with the radii that an inverse model returns, about the anchors of a 3-RPR in that pose.
+    """Show circles with the radii that an inverse model returns, about the anchors of a 3-RPR in that pose.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def show_leg_lengths(leg_lengths, base, platform, pose):
 
 @own_result
 def show_modes(modes, base, platform, lengths):
-    """Assembly modes side by side; below each one the largest error of its legs.
+    """Show assembly modes side by side; below each one the largest error of its legs.
 
     Parameters
     ----------
@@ -80,9 +80,7 @@ def show_modes(modes, base, platform, lengths):
     -------
     matplotlib Axes
     """
-    if len(entries(modes)) == 3:
-        modes = [entries(modes)]
-    rows = numbers(modes, "modes", (None, 3), {}) if entries(modes) else np.empty((0, 3))
+    rows = numbers_in_rows(modes, "modes", 3)
     ax = draw_assembly_modes(base, platform, rows)
     off = [np.abs(np.hypot(*(platform_points(platform, row) - base).T) - lengths).max() for row in rows]
     for text, error in zip(ax.texts, off):
@@ -94,7 +92,7 @@ def show_modes(modes, base, platform, lengths):
 
 @own_result
 def show_singular_poses(jacobian, base, platform, phi, view=(-0.6, 1.6, 0.35, 1.5)):
-    """Where the determinant of a Jacobian changes its sign, for all positions of P at one angle of the platform.
+    """Show where the determinant of a Jacobian changes its sign, for all positions of P at one angle of the platform.
 
     Parameters
     ----------
@@ -119,7 +117,7 @@ def show_singular_poses(jacobian, base, platform, phi, view=(-0.6, 1.6, 0.35, 1.
     for sign, word in ((determinants > 0, "det > 0"), (determinants < 0, "det < 0")):
         if sign.any():
             row, column = np.argwhere(sign).mean(axis=0).astype(int)
-            ax.text(xs[column], ys[row], word, ha="center", va="center", path_effects=halo(), color=INK)
+            ax.text(xs[column], ys[row], word, ha="center", va="center", path_effects=HALO, color=INK)
     ax.plot(*np.transpose(base), "o", ms=6, mfc="white", mec=SOFT, mew=1.4, ls="none", clip_on=True)
     ax.set(xlim=view[:2], ylim=view[2:], xlabel="x of P (m)", ylabel="y of P (m)")
     ax.set_title(
@@ -130,7 +128,7 @@ def show_singular_poses(jacobian, base, platform, phi, view=(-0.6, 1.6, 0.35, 1.
 
 @own_result
 def show_singular(x, base, platform, y, phi=0.0):
-    """The leg lines of the pose (x, y, phi): in a singular pose they meet in one point.
+    """Show the leg lines of the pose (x, y, phi): in a singular pose they meet in one point.
 
     Parameters
     ----------
@@ -150,7 +148,7 @@ def show_singular(x, base, platform, y, phi=0.0):
 
 @own_result
 def show_3rrr_postures(postures, base, platform, bars, pose):
-    """The legs of a 3-RRR in each given posture: the outer bars belong on the corners of the platform.
+    """Show the legs of a 3-RRR in each given posture: the outer bars belong on the corners of the platform.
 
     Parameters
     ----------
@@ -164,7 +162,5 @@ def show_3rrr_postures(postures, base, platform, bars, pose):
     -------
     matplotlib Axes
     """
-    if len(entries(postures)) == 6:
-        postures = [entries(postures)]
-    rows = numbers(postures, "postures", (None, 6), {}) if entries(postures) else np.empty((0, 6))
+    rows = numbers_in_rows(postures, "postures", 6)
     return draw_3rrr(base, platform, bars, pose, rows[:16])

@@ -4,33 +4,36 @@ from __future__ import annotations
 
 import numpy as np
 
-from .. import strokes
-from ..drawing.chains import Labels, chain_frames, draw_chain, fill_panel
-from ..drawing.rules import add_axis, add_two_axes, common_normal, link_direction, panels_3d
+from ..drawing.chains import chain_frames, draw_chain
+from ..drawing.inputs import as_line
+from ..drawing.labels import Labels
 from ..drawing.scenes import (
     add_frame,
-    finished,
-    gripper_at,
+    add_gripper,
+    add_parallel_axes,
+    add_reading,
+    add_shelf,
+    draw_thin_line,
+    finish_scene,
     new_scene,
-    parallel_scene,
-    reading_scene,
-    shelf_scene,
-    thin_line,
 )
-from .own_result import called, numbers, own_result
-from .tables import say_if_not_rigid
+from ..drawing.strokes_3d import draw_arrow_3d, draw_target_3d
+from ..drawing.style import AXIS_COLOURS, INK
+from ..drawing.two_axes import add_axis, add_two_axes, link_direction
+from ..drawing.view import fill_panel, new_panels_3d
+from ..geometry import common_normal, rigid_transform
+from .own_result import called, numbers, own_result, say_if_not_rigid
 
 
 def _mark(ax, labels, at, text, out=(1, 0, 0.6)):
     """The student's point: a cross in a circle."""
-    ax.plot(*at[:, None], "o", ms=13, mfc="none", mec=strokes.INK, mew=1.3, zorder=8)
-    ax.plot(*at[:, None], "+", ms=18, color=strokes.INK, mew=1.3, zorder=8)
+    draw_target_3d(ax, at, zorder=8)
     labels.ask(at, text, out, gap=12)
 
 
 @own_result
 def show_reading(parameters, reach, tilt, drop, turn):
-    """Frame 2 where the student's four parameters put it, over the frames that they were read from.
+    """Show frame 2 where the student's four parameters put it, over the frames that they were read from.
 
     Parameters
     ----------
@@ -44,29 +47,28 @@ def show_reading(parameters, reach, tilt, drop, turn):
     """
     a, alpha, d, theta = numbers(parameters, "reading", (4,), {})
     ax, labels, extent = new_scene((20, -50))
-    extent.append(reading_scene(ax, labels, reach, tilt, drop, turn))
+    extent.append(add_reading(ax, labels, reach, tilt, drop, turn))
     frame = chain_frames([[0, a, alpha, d, theta]])[1]
     for letter, column in (("x", 0), ("z", 2)):
         end = frame[:3, 3] + 0.36 * reach * frame[:3, column]
-        strokes.arrow_3d(ax, frame[:3, 3], end, strokes.AXIS_COLOURS[letter], width=4.5, scale=18, zorder=4)
+        draw_arrow_3d(ax, frame[:3, 3], end, AXIS_COLOURS[letter], width=4.5, scale=18, zorder=4)
         extent.append(end[None])
     _mark(ax, labels, frame[:3, 3], "your frame 2", -frame[:3, 0] + 0.3 * frame[:3, 2])
     extent.append(frame[None, :3, 3])
-    return finished(ax, labels, extent)
+    return finish_scene(ax, labels, extent)
 
 
 def _two_axes(first, second, view=(20, -58)):
     ax, labels, extent = new_scene(view)
-    (p, u), (q, v) = (tuple(np.asarray(part, dtype=float) for part in line) for line in (first, second))
-    u, v = u / np.linalg.norm(u), v / np.linalg.norm(v)
+    first, second = as_line(first, "first axis"), as_line(second, "second axis")
     bare = {"normal": False, "frame": False, "angle": False}
-    extent.append(add_two_axes(ax, labels, (p, u), (q, v), body=True, base=True, points=("P", "Q"), **bare))
-    return ax, labels, extent, (u, v)
+    extent.append(add_two_axes(ax, labels, first, second, body=True, base=True, points=("P", "Q"), **bare))
+    return ax, labels, extent, (first[1], second[1])
 
 
 @own_result
 def show_origin(origin, first, second):
-    """The student's origin O1, on the axes Z1 and Z2.
+    """Show the student's origin O1, on the axes Z1 and Z2.
 
     Parameters
     ----------
@@ -80,12 +82,12 @@ def show_origin(origin, first, second):
     at = numbers(origin, "origin", (3,), {})
     ax, labels, extent, _ = _two_axes(first, second)
     _mark(ax, labels, at, "your $O_{1}$", (-1, 0, 0.3))
-    return finished(ax, labels, [*extent, at[None]])
+    return finish_scene(ax, labels, [*extent, at[None]])
 
 
 @own_result
 def show_x_axis(x_axis, origin, first, second):
-    """The student's X1, leaving from the student's O1 (from P, if there is none), and the line that it lies on.
+    """Show the student's X1, leaving from the student's O1 (from P, if there is none), and the line that it lies on.
 
     Parameters
     ----------
@@ -110,22 +112,24 @@ def show_x_axis(x_axis, origin, first, second):
     if np.linalg.norm(x) > 1e-9:
         way = x / np.linalg.norm(x)
         ends = np.vstack([ends, at - 3.2 * size * way, at + 3.2 * size * way])
-        thin_line(ax, ends[2], ends[3])
-    ax.plot(*at[:, None], "o", ms=5.5, color=strokes.INK, zorder=8)
+        draw_thin_line(ax, ends[2], ends[3])
+    ax.plot(*at[:, None], "o", ms=5.5, color=INK, zorder=8)
     x = np.round(x, 6) + 0.0
-    told = f"length {np.linalg.norm(x):.3f},  $X_1 \\cdot u$ = {round(x @ u, 5) + 0:.3f},  $X_1 \\cdot v$ = {round(x @ v, 5) + 0:.3f}  (u, v of length 1)"
+    along_u, along_v = (round(x @ along, 5) + 0 for along in (u, v))
+    told = f"length {np.linalg.norm(x):.3f},  $X_1 \\cdot u$ = {along_u:.3f},  $X_1 \\cdot v$ = {along_v:.3f}"
+    told += "  (u, v of length 1)"
     ax.figure.text(0.5, 0.005, told.replace("-", "\N{MINUS SIGN}"), ha="center", fontsize=9)
-    return finished(ax, labels, [*extent, ends])
+    return finish_scene(ax, labels, [*extent, ends])
 
 
 @own_result
-def show_parallel(parallel, gap, side, height):
-    """The student's O1 at the height z1, and X1 with the length a1 from there, between two vertical axes.
+def show_parallel_axes(parallel, gap, side, height):
+    """Show the student's O1 at the height z1, and X1 with the length a1 from there, between two vertical axes.
 
     Parameters
     ----------
     parallel : [a1, z1], in metres
-    gap, side, height : as in `draw_parallel`
+    gap, side, height : as in `draw_parallel_axes`
 
     Returns
     -------
@@ -134,18 +138,18 @@ def show_parallel(parallel, gap, side, height):
     """
     a, z = numbers(parallel, "parallel", (2,), {})
     ax, labels, extent = new_scene((20, -70))
-    extent.append(parallel_scene(ax, labels, gap, side, height))
+    extent.append(add_parallel_axes(ax, labels, gap, side, height))
     start = np.array([0, 0, z])
     end = start + a * np.array([gap, side, 0]) / np.hypot(gap, side)
-    ax.plot(*zip(start, end), color=strokes.INK, lw=2.8, zorder=6, solid_capstyle="round")
+    ax.plot(*zip(start, end), color=INK, lw=2.8, zorder=6, solid_capstyle="round")
     _mark(ax, labels, start, "your $O_{1}$", (-1, 0, 0.3))
     labels.ask((start + end) / 2, "your $a_{1}$", (0, 0, 1), gap=8)
-    return finished(ax, labels, [*extent, np.array([start, end])])
+    return finish_scene(ax, labels, [*extent, np.array([start, end])])
 
 
 @own_result
 def show_frame(frame, first, second, view=(18, -22)):
-    """The student's frame 1, at the axes Z1 and Z2.
+    """Show the student's frame 1, at the axes Z1 and Z2.
 
     Parameters
     ----------
@@ -160,16 +164,16 @@ def show_frame(frame, first, second, view=(18, -22)):
     matrix = numbers(frame, "frame", (4, 4), {})
     ax, labels, extent, _ = _two_axes(first, second, view)
     extent.append(add_frame(ax, labels, matrix, "1", 0.3 * np.linalg.norm(np.subtract(second[0], first[0])), "xy", 2.4))
-    ax.plot(*matrix[:3, 3:], "o", ms=5.5, color=strokes.INK, zorder=8)
+    ax.plot(*matrix[:3, 3:], "o", ms=5.5, color=INK, zorder=8)
     labels.ask(matrix[:3, 3], "your $O_{1}$", -matrix[:3, 0] - matrix[:3, 1], gap=8)
-    finished(ax, labels, extent)
+    finish_scene(ax, labels, extent)
     say_if_not_rigid(ax, matrix)
     return ax
 
 
 @own_result
 def show_rewritten(table, printed, values: dict[str, float]):
-    """Two robots side by side: the printed table, and the student's.
+    """Show two robots side by side: the printed table, and the student's.
 
     Parameters
     ----------
@@ -182,17 +186,16 @@ def show_rewritten(table, printed, values: dict[str, float]):
     list of 2 matplotlib Axes (3D)
         The bodies belong in the same place; X3 and X5 may differ.
     """
-    rows = [list(row) for row in (table.tolist() if hasattr(table, "tolist") else table)]
-    cells = numbers(rows, "table", (None, 5), values)
-    panels = panels_3d(["printed", "yours"], width=4.2, height=4.6)
+    cells = numbers(table, "table", (None, 5), values)
+    panels = new_panels_3d(["printed", "yours"], width=4.2, height=4.6)
     for ax, robot in zip(panels, (printed, cells)):
         draw_chain(robot, values, ax, frames=(3, 5))
     return panels
 
 
 @own_result
-def show_gripper(frame, yaw, height):
-    """A gripper that sits on the student's frame E, at the shelf.
+def show_gripper_at_shelf(frame, yaw, height):
+    """Show a gripper that sits on the student's frame E, at the shelf.
 
     Parameters
     ----------
@@ -205,11 +208,11 @@ def show_gripper(frame, yaw, height):
     """
     matrix = numbers(frame, "gripper", (4, 4), {})
     ax, labels, extent = new_scene((24, -100))
-    extent.append(shelf_scene(ax, labels, yaw, height))
-    extent.append(gripper_at(ax, matrix))
+    extent.append(add_shelf(ax, labels, yaw, height))
+    extent.append(add_gripper(ax, matrix))
     extent.append(add_frame(ax, labels, matrix, "E", 0.3, width=2.4))
     extent.append(add_frame(ax, labels, np.eye(4), "0", 0.25))
-    finished(ax, labels, extent)
+    finish_scene(ax, labels, extent)
     say_if_not_rigid(ax, matrix)
     return ax
 
@@ -223,7 +226,7 @@ PAIRS = (
 
 @own_result
 def show_link(link):
-    """Z2 where the student's a and alpha put it, over the right axis, for three pairs of axes.
+    """Show Z2 where the student's a and alpha put it, over the right axis, for three pairs of axes.
 
     Parameters
     ----------
@@ -237,27 +240,19 @@ def show_link(link):
     found = []
     for _, (p, u), (q, v) in PAIRS:
         found.append(numbers(called(link, *map(list, (p, u, q, v))), "link", (2,), {}))
-    panels = panels_3d(
+    panels = new_panels_3d(
         [f"{kind}:  a = {a:.3f},  α = {np.degrees(alpha):.1f}°" for (kind, *_), (a, alpha) in zip(PAIRS, found)]
     )
     for ax, (_, first, second), (a, alpha) in zip(panels, PAIRS, found):
         labels = Labels()
-        lines = [tuple(np.asarray(part, dtype=float) for part in line) for line in (first, second)]
-        (p, u), (q, v) = [(point, along / np.linalg.norm(along)) for point, along in lines]
-        frame = _frame_of_link((p, u), (q, v))
+        first, second = as_line(first, "Z1"), as_line(second, "Z2")
+        x, z = link_direction(first, second), first[1]
+        frame = rigid_transform(np.column_stack([x, np.cross(z, x), z]), common_normal(first, second).feet[0])
         parts = {"normal": True, "frame": False, "angle": False, "body": False}
-        extent = add_two_axes(ax, labels, (p, u), (q, v), **parts)
+        extent = add_two_axes(ax, labels, first, second, **parts)
         theirs = frame @ chain_frames([[0, a, alpha, 0, 0]])[1]
         ends = theirs[:3, 3] + np.outer([-0.3, 0.55], theirs[:3, 2])
-        ax.plot(*ends.T, color=strokes.INK, lw=4.5, alpha=0.55, zorder=3)
+        ax.plot(*ends.T, color=INK, lw=4.5, alpha=0.55, zorder=3)
         fill_panel(ax, np.vstack([extent, ends]))
         labels.place(ax)
     return panels
-
-
-def _frame_of_link(first, second) -> np.ndarray:
-    frame = np.eye(4)
-    x, z = link_direction(first, second), first[1]
-    frame[:3, :3] = np.column_stack([x, np.cross(z, x), z])
-    frame[:3, 3] = common_normal(first, second)[0][0]
-    return frame

@@ -6,16 +6,17 @@ import matplotlib.pyplot as plt
 import numpy as np
 import sympy
 
-from ..drawing.pen import draw_pen_robot, pen_tip
-from ..strokes import AXIS_COLOURS, INK, SOFT, show_plane, write_3d
-from .own_result import called, entries, numbers, own_result
-
-LENGTHS = ("h1", "L1", "h2", "L2", "p1")
+from ..drawing.pen import PEN_SIZES, draw_pen_robot, pen_tip
+from ..drawing.strokes import show_plane
+from ..drawing.strokes_3d import draw_target_3d, write_3d
+from ..drawing.style import AXIS_COLOURS, INK, SOFT
+from ..geometry import rotation, unit_vector, wrap
+from .own_result import called, entries, numbers, numbers_in_rows, own_result
 
 
 @own_result
 def show_tip(tip, values: dict[str, float], *, repaired=False):
-    """The pen robot in the posture given by `values`, and a point [x, y, z] or [rho, z] of an answer.
+    """Show the pen robot in the posture given by `values`, and a point [x, y, z] or [rho, z] of an answer.
 
     The cross belongs on the end of the pen.
 
@@ -33,24 +34,23 @@ def show_tip(tip, values: dict[str, float], *, repaired=False):
     """
     if len(entries(tip)) == 2:
         rho, z = numbers(tip, "repaired", (2,), values)
-        side, turn = values["h2"] + (0 if repaired else values["L2"]), values["t1"]
-        at = [rho * np.cos(turn) - side * np.sin(turn), rho * np.sin(turn) + side * np.cos(turn), z]
+        side = values["h2"] + (0 if repaired else values["L2"])
+        at = rotation("z", values["t1"]) @ [rho, side, z]
     else:
         at = numbers(tip, "tip", (3,), values)
-    sizes = {name: values[name] for name in LENGTHS}
+    sizes = {name: values[name] for name in PEN_SIZES}
     if np.linalg.norm(at) > 10 * sum(sizes.values()):
         raise ValueError(f"your tip is {np.linalg.norm(at):.3g} m away, far outside the picture")
     q = [values[name] for name in ("t1", "t2", "t3")]
     ax = draw_pen_robot(q, sizes, repaired=repaired, names=False, curve=[at, at])
-    for marker, size in (("o", 14), ("+", 22)):
-        ax.plot(*[[each] for each in at], marker, ms=size, mfc="none", mec=INK, mew=1.4, zorder=8)
+    draw_target_3d(ax, at, zorder=8)
     write_3d(ax, np.array(at) + (0, 0, -0.05 * sum(sizes.values())), "your result", fontsize=10)
     return ax
 
 
 @own_result
 def show_height(height, sizes: dict[str, float]):
-    """(z - h1)^2 of an answer against the distance from axis 1, over tips of random postures.
+    """Show (z - h1)^2 of an answer against the distance from axis 1, over tips of random postures.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def show_height(height, sizes: dict[str, float]):
 
 @own_result
 def show_circles(radii, sizes: dict[str, float], height: float):
-    """Two radii as circles, over tips of random postures that come within 4 mm of a horizontal sheet.
+    """Show two radii as circles, over tips of random postures that come within 4 mm of a horizontal sheet.
 
     Parameters
     ----------
@@ -107,9 +107,7 @@ def show_circles(radii, sizes: dict[str, float], height: float):
     ax.plot(near[:, 0], near[:, 1], ".", ms=3, color=SOFT, label="tips near the sheet")
     turn = np.linspace(0, 2 * np.pi, 200)
     for radius, dashes in zip(radii, ("-", (0, (5, 2)))):
-        ax.plot(
-            radius * np.cos(turn), radius * np.sin(turn), color=INK, lw=1.5, ls=dashes, label=f"your {radius:.3f} m"
-        )
+        ax.plot(*(radius * unit_vector(turn)).T, color=INK, lw=1.5, ls=dashes, label=f"your {radius:.3f} m")
     show_plane(ax)
     ax.margins(0.06)
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, columnspacing=1.2, handlelength=1.6)
@@ -118,7 +116,7 @@ def show_circles(radii, sizes: dict[str, float], height: float):
 
 @own_result
 def show_pen_inverse(inverse, sizes: dict[str, float]):
-    """Points of the surface from above, and where the pen goes with each (theta1, phi) that an inverse model returns.
+    """Show points of the surface from above, and where the pen goes with what an inverse model returns for them.
 
     Parameters
     ----------
@@ -136,7 +134,7 @@ def show_pen_inverse(inverse, sizes: dict[str, float]):
     reached, missed, nothing = [], [], 0
     for point in wanted:
         answer = called(inverse, *map(float, point), *others)
-        rows = numbers(answer, "inverse", (None, 2), {}) if len(entries(answer)) else np.empty((0, 2))
+        rows = numbers_in_rows(answer, "inverse", 2)
         nothing += not len(rows)
         for turn, phi in rows:
             tip = pen_tip([turn, phi, 0.0], sizes)
@@ -160,7 +158,7 @@ def show_pen_inverse(inverse, sizes: dict[str, float]):
 
 @own_result
 def show_trace(follow, curve, sizes: dict[str, float], stop=np.pi / 2):
-    """The pen robot writes a curve with the joint angles of a function; the picture measures the trace.
+    """Show the pen robot writing a curve with the joint angles that a function returns, and measure its trace.
 
     Parameters
     ----------
@@ -179,7 +177,7 @@ def show_trace(follow, curve, sizes: dict[str, float], stop=np.pi / 2):
     rows = [numbers(entries(called(follow, *map(float, point))), "follow", (3,), {}) for point in curve]
     trace = pen_tip(rows, sizes)
     away = 1000 * np.linalg.norm(trace - curve, axis=1).max()
-    largest = np.degrees(np.abs(np.angle(np.exp(1j * np.array(rows)[:, 1:]))).max(axis=0))
+    largest = np.degrees(np.abs(wrap(np.array(rows)[:, 1:])).max(axis=0))
     ax = draw_pen_robot(rows[len(rows) // 3], sizes, names=False, curve=curve, trace=trace)
     said = f"trace at most {away:.2g} mm from the curve" if away < 1e4 else "trace far from the curve"
     beyond = " and ".join(rf"$\theta_{k + 2}$" for k in (0, 1) if largest[k] > np.degrees(stop) + 1e-6)

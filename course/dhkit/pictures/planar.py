@@ -6,14 +6,15 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Circle
 
-from .. import drawing
-from ..strokes import AXIS_COLOURS, INK, SOFT, in_degrees
-from .own_result import called, entries, numbers, own_result
+from ..drawing.planar import draw_planar_arm, draw_postures, mark_frame_2d, mark_hands, mark_target
+from ..drawing.style import AXIS_COLOURS, INK, SOFT, in_degrees
+from ..geometry import planar_joints, two_link, unit_vector
+from .own_result import called, entries, numbers, numbers_in_rows, own_result
 
 
 @own_result
 def show_on_planar_arm(answer, values: dict[str, float]):
-    """A point [x, y], or a hand frame, on the planar 2R arm in the posture given by `values`.
+    """Show a point [x, y], or a hand frame, on the planar 2R arm in the posture given by `values`.
 
     The cross belongs on the end of the arm.
 
@@ -33,16 +34,16 @@ def show_on_planar_arm(answer, values: dict[str, float]):
     else:
         frame = numbers(answer, "transform", (4, 4), values)
         at = frame[:2, 3]
-    ax = drawing.draw_planar_arm(lengths, q, hand="")
-    drawing.mark_target(ax, at, "your result")
+    ax = draw_planar_arm(lengths, q, hand="")
+    mark_target(ax, at, "your result")
     if frame is not None:
-        drawing.mark_frame_2d(ax, frame, "E", 0.24 * sum(lengths))
+        mark_frame_2d(ax, frame, "E", 0.24 * sum(lengths))
     return ax
 
 
 @own_result
 def show_postures(solutions, lengths, target, heading=None):
-    """Joint solutions of a planar 2R arm, or of a SCARA seen from above, with the point that they should reach.
+    """Show joint solutions of a planar 2R arm, or of a SCARA seen from above, with the point that they should reach.
 
     Parameters
     ----------
@@ -56,15 +57,12 @@ def show_postures(solutions, lengths, target, heading=None):
     -------
     matplotlib Axes
     """
-    width = 2 if heading is None else 4
-    if len(entries(solutions)) == width:
-        solutions = [entries(solutions)]
-    rows = numbers(solutions, "solutions", (None, width), {}) if entries(solutions) else np.empty((0, width))
-    ax = drawing.draw_postures(lengths, rows[:, :2], target)
+    rows = numbers_in_rows(solutions, "solutions", 2 if heading is None else 4)
+    ax = draw_postures(lengths, rows[:, :2], target)
     if heading is not None:
         notes = [f"$d_2$ = {row[2]:.3f} m,  $t_4$ = {in_degrees(row[3])}" for row in rows]
         hands = [row[0] + row[1] + row[3] for row in rows]
-        drawing.mark_hands(ax, lengths, rows[:, :2], hands, target, heading, notes)
+        mark_hands(ax, lengths, rows[:, :2], hands, target, heading, notes)
     if not len(rows):
         ax.set_title("no solution given")
     return ax
@@ -72,7 +70,7 @@ def show_postures(solutions, lengths, target, heading=None):
 
 @own_result
 def show_cos_theta2(expression, lengths):
-    """The cosine of the elbow angle against the distance of the target, with the range of a cosine.
+    """Show the cosine of the elbow angle against the distance of the target, with the range of a cosine.
 
     Parameters
     ----------
@@ -107,7 +105,7 @@ def show_cos_theta2(expression, lengths):
 
 @own_result
 def show_theta1(expression, lengths, target):
-    """Both arms that a formula for t1 gives for one target, t2 being right.
+    """Show both arms that a formula for t1 gives for one target, t2 being right.
 
     Parameters
     ----------
@@ -121,15 +119,15 @@ def show_theta1(expression, lengths, target):
         Both arms end on the target when the formula is right.
     """
     (l1, l2), (x, y) = lengths, target
-    elbow = np.arccos((x**2 + y**2 - l1**2 - l2**2) / (2 * l1 * l2))
     given = {"x": x, "y": y, "L1": l1, "L2": l2}
-    rows = [(float(numbers(expression, "t1", (), given | {"t2": t2})), t2) for t2 in (elbow, -elbow)]
-    return drawing.draw_postures(lengths, rows, target)
+    bends = two_link(x + 1j * y, l1, l2).bend
+    rows = [(float(numbers(expression, "t1", (), given | {"t2": t2})), t2) for t2 in bends]
+    return draw_postures(lengths, rows, target)
 
 
 @own_result
 def show_reach(limits, lengths):
-    """The circles [r_min, r_max] of an answer over points that the arm really reaches.
+    """Show the circles [r_min, r_max] of an answer over points that the arm really reaches.
 
     Parameters
     ----------
@@ -142,20 +140,17 @@ def show_reach(limits, lengths):
     """
     inner, outer = numbers(limits, "reach", (2,), {"L1": lengths[0], "L2": lengths[1]})
     random = np.random.default_rng(7)
-    t1, t2 = random.uniform(-np.pi, np.pi, (2, 2500))
-    x = lengths[0] * np.cos(t1) + lengths[1] * np.cos(t1 + t2)
-    y = lengths[0] * np.sin(t1) + lengths[1] * np.sin(t1 + t2)
+    q = random.uniform(-np.pi, np.pi, (2, 2500)).T
     ax = plt.subplots(figsize=(4.6, 4.6))[1]
     ax.set_aspect("equal")
-    ax.plot(x, y, ".", ms=2.5, color=SOFT, label="random postures")
+    ax.plot(*planar_joints(lengths, q)[:, -1].T, ".", ms=2.5, color=SOFT, label="random postures")
     turn = np.linspace(0, 2 * np.pi, 200)
     for radius, dashes, name in (
         (outer, "-", "your $r_\\mathrm{max}$"),
         (inner, (0, (5, 2)), "your $r_\\mathrm{min}$"),
     ):
-        ax.plot(
-            radius * np.cos(turn), radius * np.sin(turn), color=INK, lw=1.8, ls=dashes, label=f"{name} = {radius:.2f} m"
-        )
+        circle = radius * unit_vector(turn)
+        ax.plot(*circle.T, color=INK, lw=1.8, ls=dashes, label=f"{name} = {radius:.2f} m")
     ax.margins(0.06)
     ax.set(xlabel="x (m)", ylabel="y (m)")
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, columnspacing=1.2, handlelength=1.6)
@@ -164,7 +159,7 @@ def show_reach(limits, lengths):
 
 @own_result
 def show_inverse(inverse, lengths):
-    """How many postures an inverse model returns over the plane, and where one of them misses its target.
+    """Show how many postures an inverse model returns over the plane, and where one of them misses its target.
 
     Parameters
     ----------
@@ -178,8 +173,8 @@ def show_inverse(inverse, lengths):
     l1, l2 = lengths
     side = np.linspace(-1.15, 1.15, 21) * (l1 + l2)
     grid = [(x, y) for x in side for y in side if np.hypot(x, y) > 1e-9]
-    turns = np.arange(12) * np.pi / 6 + 0.1
-    circles = [(r * np.cos(t), r * np.sin(t)) for r in (l1 + l2, abs(l1 - l2)) if r > 1e-9 for t in turns]
+    around = unit_vector(np.arange(12) * np.pi / 6 + 0.1)
+    circles = [point for r in (l1 + l2, abs(l1 - l2)) if r > 1e-9 for point in r * around]
     kinds = [_posture_count(inverse, x, y, lengths) for x, y in (*grid, *circles)]
     points = np.array([*grid, *circles])
     ax = plt.subplots(figsize=(5.0, 5.0))[1]
@@ -205,6 +200,6 @@ def _posture_count(inverse, x, y, lengths) -> str:
     """ "0", "1", "2", "more", or "misses" if a returned posture does not reach (x, y)."""
     answer = called(inverse, float(x), float(y), *lengths)
     rows = numbers(answer, "inverse", (None, 2), {}) if len(answer) else []
-    if any(np.hypot(*(drawing.planar_points(lengths, row)[2] - (x, y))) > 1e-6 for row in rows):
+    if any(np.hypot(*(planar_joints(lengths, row)[2] - (x, y))) > 1e-6 for row in rows):
         return "misses"
     return str(len(rows)) if len(rows) <= 2 else "more"

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from .. import drawing
-from .own_result import called, entries, numbers, own_result
-from .tables import dhm, say_if_not_rigid
+from ..drawing.frames import mark_frame, mark_path
+from ..drawing.scara import draw_scara_3d
+from ..geometry import rigid_transform, rotation
+from .own_result import called, entries, numbers, own_result, say_if_not_rigid
 
 
 @own_result
 def show_on_scara(answer, values: dict[str, float], base="0"):
-    """A hand frame, or [x, y, z, theta], beside the SCARA in the posture given by `values`.
+    """Show a hand frame, or [x, y, z, theta], beside the SCARA in the posture given by `values`.
 
     The frame belongs on the tip of the quill.
 
@@ -29,20 +30,19 @@ def show_on_scara(answer, values: dict[str, float], base="0"):
     """
     if len(entries(answer)) == 4:
         x, y, z, theta = numbers(answer, "model", (4,), values)
-        frame = dhm(0, 0, 0, theta)
-        frame[:3, 3] = x, y, z
+        frame = rigid_transform(rotation("z", theta), (x, y, z))
     else:
         frame = numbers(answer, "transform", (4, 4), values)
     q = [values["t1"] if base == "0" else 0.0, values["t2"], values["d2"], values["t4"]]
-    ax = drawing.draw_scara_3d(q, values["a2"], values["a3"], frames=False, dimensions=False)
-    drawing.mark_frame(ax, frame, "4", 0.28 * (values["a2"] + values["a3"]))
+    ax = draw_scara_3d(q, values["a2"], values["a3"], frames=False, dimensions=False)
+    mark_frame(ax, frame, "4", 0.28 * (values["a2"] + values["a3"]))
     say_if_not_rigid(ax, frame)
     return ax
 
 
 @own_result
 def show_scara_forward(forward, a2=0.4, a3=0.3):
-    """The path of the hand that a direct model gives for a motion of all four joints, beside the SCARA at its end.
+    """Show the path of the hand that a direct model gives for a motion of all four joints, beside the SCARA at its end.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def show_scara_forward(forward, a2=0.4, a3=0.3):
     start, end = np.array([1.25, 0.3, 0.02, 1.0]), np.array([-0.45, 1.0, 0.25, -0.6])
     path = [start + s * (end - start) for s in np.linspace(0, 1, 41)]
     frames = np.array([numbers(called(forward, *map(float, q), a2, a3), "forward", (4, 4), {}) for q in path])
-    ax = drawing.draw_scara_3d(end, a2, a3, frames=False, dimensions=False)
-    drawing.mark_path(ax, frames, 0.12 * (a2 + a3))
+    ax = draw_scara_3d(end, a2, a3, frames=False, dimensions=False)
+    mark_path(ax, frames, 0.12 * (a2 + a3))
     say_if_not_rigid(ax, frames[-1])
     return ax

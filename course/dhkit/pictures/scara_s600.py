@@ -6,15 +6,17 @@ from itertools import product
 
 import numpy as np
 
-from .. import drawing
 from ..drawing.chains import draw_chain
-from ..strokes import fit_3d, in_degrees
-from .own_result import called, entries, numbers, own_result
+from ..drawing.frames import mark_frame
+from ..drawing.planar import draw_postures, mark_hands
+from ..drawing.style import in_degrees
+from ..drawing.view import fit_3d
+from ..geometry import chain_products, classic_dh, two_link, wrap
+from .own_result import called, numbers, numbers_in_rows, own_result, say_if_not_rigid
 from .planar import show_inverse
-from .tables import dhm, say_if_not_rigid
 
 
-def _rows(values):
+def _table(values):
     return [
         [0, 0, 0, 0, values["t1"]],
         [0, values["d2"], 0, 0, values["t2"]],
@@ -25,7 +27,7 @@ def _rows(values):
 
 @own_result
 def show_on_s600(answer, values: dict[str, float], base="0"):
-    """A hand frame beside the s600 in the posture given by `values`: it belongs on the flange, with Z_4 down.
+    """Show a hand frame beside the s600 in the posture given by `values`: it belongs on the flange, with Z_4 down.
 
     Parameters
     ----------
@@ -39,12 +41,12 @@ def show_on_s600(answer, values: dict[str, float], base="0"):
     -------
     matplotlib Axes (3D)
     """
-    return _marked(numbers(answer, "transform", (4, 4), values), values | ({"t1": 0.0} if base == "1" else {}))
+    return _mark_hand(numbers(answer, "transform", (4, 4), values), values | ({"t1": 0.0} if base == "1" else {}))
 
 
 @own_result
 def show_classic(table, values: dict[str, float]):
-    """The hand frame that a classic table [a, alpha, d, theta] leads to, beside the s600.
+    """Show the hand frame that a classic table [a, alpha, d, theta] leads to, beside the s600.
 
     Parameters
     ----------
@@ -56,16 +58,14 @@ def show_classic(table, values: dict[str, float]):
     -------
     matplotlib Axes (3D)
     """
-    hand = np.eye(4)
-    for a, alpha, d, theta in numbers(table, "table", (4, 4), values):
-        hand = hand @ dhm(0, 0, d, theta) @ dhm(a, alpha, 0, 0)
-    return _marked(hand, values)
+    rows = numbers(table, "table", (4, 4), values)
+    return _mark_hand(chain_products(classic_dh(*rows.T))[-1], values)
 
 
-def _marked(frame, values):
+def _mark_hand(frame, values):
     size = 0.28 * (values["d2"] + values["d3"])
-    ax = draw_chain(_rows(values), frames=(), axes=False)
-    drawing.mark_frame(ax, frame, "4", size)
+    ax = draw_chain(_table(values), frames=(), axes=False)
+    mark_frame(ax, frame, "4", size)
     robot = np.array(list(product(ax.get_xlim(), ax.get_ylim(), ax.get_zlim())))
     fit_3d(ax, np.vstack([robot, frame[:3, 3] + 1.35 * size * frame[:3, :3].T]), True)
     say_if_not_rigid(ax, frame)
@@ -74,7 +74,7 @@ def _marked(frame, values):
 
 @own_result
 def show_linear(answer, lengths, target):
-    """Both arms that a formula for the cosine and the sine of t1 gives for one target, t2 being right.
+    """Show both arms that a formula for the cosine and the sine of t1 gives for one target, t2 being right.
 
     Parameters
     ----------
@@ -89,18 +89,18 @@ def show_linear(answer, lengths, target):
     """
     (l2, l3), (x, y) = lengths, target
     found = [answer[name] for name in ("cos_i", "sin_i")] if isinstance(answer, dict) else answer
-    elbow = np.arccos((x**2 + y**2 - l2**2 - l3**2) / (2 * l2 * l3))
+    bends = two_link(x + 1j * y, l2, l3).bend
     given = {"X": l2, "Y": l3, "Z1": x, "Z2": y}
-    pairs = [numbers(found, "cos_i, sin_i", (2,), given | {"tj": bend}) for bend in (elbow, -elbow)]
-    rows = [(np.arctan2(pair[1], pair[0]), bend) for pair, bend in zip(pairs, (elbow, -elbow))]
-    ax = drawing.draw_postures(lengths, rows, target)
+    pairs = [numbers(found, "cos_i, sin_i", (2,), given | {"tj": bend}) for bend in bends]
+    rows = [(np.arctan2(pair[1], pair[0]), bend) for pair, bend in zip(pairs, bends)]
+    ax = draw_postures(lengths, rows, target)
     ax.set_title("cos² + sin² = " + " and ".join(f"{pair @ pair:.4g}" for pair in pairs))
     return ax
 
 
 @own_result
 def show_mgi(mgi, lengths, r30=-0.05):
-    """How many arm postures an inverse model returns over the plane, and where one of them misses its target.
+    """Show how many arm postures an inverse model returns over the plane, and where one of them misses its target.
 
     Parameters
     ----------
@@ -116,9 +116,8 @@ def show_mgi(mgi, lengths, r30=-0.05):
     z, omega, missed = -0.12, 0.6, []
 
     def arm(x, y, l2, l3):
-        rows = called(mgi, x, y, z, omega, l2, l3, r30)
-        rows = numbers([list(row) for row in rows], "mgi", (None, 4), {}) if len(rows) else np.empty((0, 4))
-        turned = (rows[:, 0] + rows[:, 1] - rows[:, 3] - omega + np.pi) % (2 * np.pi) - np.pi
+        rows = numbers_in_rows(called(mgi, x, y, z, omega, l2, l3, r30), "mgi", 4)
+        turned = wrap(rows[:, 0] + rows[:, 1] - rows[:, 3] - omega)
         if (np.abs(turned) > 1e-6).any() or (np.abs(rows[:, 2] + r30 - z) > 1e-6).any():
             missed.append((x, y))
         return rows[:, :2].tolist()
@@ -134,7 +133,7 @@ def show_mgi(mgi, lengths, r30=-0.05):
 
 @own_result
 def show_configurations(answer, lengths, target, omega):
-    """Configurations of the s600 from above, with the direction of x_4 and the wanted one.
+    """Show configurations of the s600 from above, with the direction of x_4 and the wanted one.
 
     Parameters
     ----------
@@ -147,11 +146,9 @@ def show_configurations(answer, lengths, target, omega):
     -------
     matplotlib Axes
     """
-    if len(entries(answer)) == 4:
-        answer = [entries(answer)]
-    rows = numbers([list(row) for row in answer], "configurations", (None, 4), {})
-    ax = drawing.draw_postures(lengths, rows[:, :2], target)
+    rows = numbers_in_rows(answer, "configurations", 4)
+    ax = draw_postures(lengths, rows[:, :2], target)
     notes = [f"$r_3$ = ${row[2]:.3f}$ m,  $\\theta_4$ = {in_degrees(row[3])}" for row in rows]
     hands = [row[0] + row[1] - row[3] for row in rows]
-    drawing.mark_hands(ax, lengths, rows[:, :2], hands, target, omega, notes, r"\omega")
+    mark_hands(ax, lengths, rows[:, :2], hands, target, omega, notes, r"\omega")
     return ax

@@ -7,19 +7,22 @@ import numpy as np
 import sympy
 from matplotlib.mathtext import MathTextParser
 
-from .. import drawing, strokes
-from ..drawing import chains
+from ..drawing.chains import chain_frames, draw_chain
+from ..drawing.frames import draw_dh_parameters, draw_frames_3d, mark_frame
+from ..drawing.inputs import list_rows
+from ..drawing.strokes import draw_arm, draw_arrow, draw_target, keep_in_view, new_axes, show_plane
+from ..drawing.style import INK, POSTURE_SHADES
 from ..drawing.tables import draw_joint_origins
-from ..drawing.transforms import CLASSIC, walk_frames
-from ..strokes import INK
-from .own_result import called, numbers, own_result
+from ..drawing.view import add_axes_3d
+from ..geometry import chain_products, classic_dh, modified_dh, planar_joints, unit_vector
+from .own_result import called, numbers, own_result, say_if_not_rigid
 
 COLUMNS = ("i", r"\sigma_i", r"a_{i-1}", r"\alpha_{i-1}", "d_i", r"\theta_i")
 
 
 @own_result
 def show_table(table, values: dict[str, float], tool=False):
-    """A DHm table, typeset, beside the chain of frames that it describes.
+    """Show a DHm table, typeset, beside the chain of frames that it describes.
 
     Parameters
     ----------
@@ -34,26 +37,15 @@ def show_table(table, values: dict[str, float], tool=False):
     -------
     matplotlib Axes (3D)
     """
-    rows = [list(row) for row in (table.tolist() if hasattr(table, "tolist") else table)]
+    rows = list_rows(table)
     cells = numbers(rows, "table", (None, 5), values)
-    frames = [np.eye(4)]
-    for _, a, alpha, d, theta in cells:
-        frames.append(frames[-1] @ dhm(a, alpha, d, theta))
     figure = plt.figure(figsize=(8.4, 3.6))
     names = [*map(str, range(len(rows))), "E" if tool else str(len(rows))]
     _typeset(figure.add_axes((0, 0.05, 0.44, 0.9)), rows, [*names[1:-1], "tool"] if tool else names[1:])
-    ax = figure.add_axes((0.42, -0.12, 0.6, 1.24), projection="3d", computed_zorder=False)
-    ax.view_init(elev=24, azim=-66)
-    ax.set_proj_type("ortho")
-    ax.set_axis_off()
-    drawing.draw_frames_3d(frames, names, ax=ax)
+    ax = add_axes_3d(figure, (0.42, -0.12, 0.6, 1.24), elev=24, azim=-66)
+    draw_frames_3d(chain_products(modified_dh(*cells.T[1:])), names, ax)
     ax.set_box_aspect(None, zoom=1.0)
     return ax
-
-
-def dhm(a, alpha, d, theta) -> np.ndarray:
-    c, s, ca, sa = np.cos(theta), np.sin(theta), np.cos(alpha), np.sin(alpha)
-    return np.array([[c, -s, 0, a], [s * ca, c * ca, -sa, -d * sa], [s * sa, c * sa, ca, d * ca], [0, 0, 0, 1]])
 
 
 def _typeset(ax, rows, names):
@@ -82,7 +74,7 @@ def _formula(entry) -> str:
 
 @own_result
 def show_dh_matrix(matrix, values: dict[str, float]):
-    """The frame that a general DHm matrix gives, over the four parameters that it should follow.
+    """Show the frame that a general DHm matrix gives, over the four parameters that it should follow.
 
     Parameters
     ----------
@@ -96,27 +88,15 @@ def show_dh_matrix(matrix, values: dict[str, float]):
         X_i belongs on the arrow of theta_i, Z_i on the axis of joint i.
     """
     frame = numbers(matrix, "matrix", (4, 4), values)
-    ax = drawing.draw_dh_parameters(*(values[name] for name in ("a", "alpha", "d", "theta")), frame=False)
-    drawing.mark_frame(ax, frame, "i", 0.55)
+    ax = draw_dh_parameters(*(values[name] for name in ("a", "alpha", "d", "theta")), frame=False)
+    mark_frame(ax, frame, "i", 0.55)
     say_if_not_rigid(ax, frame)
     return ax
 
 
-def say_if_not_rigid(ax, frame):
-    rotation = frame[:3, :3]
-    rigid = np.allclose(rotation.T @ rotation, np.eye(3), atol=1e-6) and np.allclose(frame[3], (0, 0, 0, 1), atol=1e-6)
-    if not rigid:
-        fault = "the axes are not orthogonal unit vectors"
-    elif np.linalg.det(rotation) < 0:
-        fault = "the axes are left-handed, a mirror image"
-    else:
-        return
-    ax.figure.text(0.5, 0.01, f"not a rigid displacement: {fault}", ha="center")
-
-
 @own_result
 def show_chain(table, values: dict[str, float], names=None, frames=(), tool=False):
-    """The robot that a DHm table describes, as a body with its joint axes.
+    """Show the robot that a DHm table describes, as a body with its joint axes.
 
     Parameters
     ----------
@@ -124,18 +104,18 @@ def show_chain(table, values: dict[str, float], names=None, frames=(), tool=Fals
     values : dict
         Numbers for the symbols of the table, by name.
     names, frames, tool
-        As for `drawing.chains.draw_chain`.
+        As for `dhkit.drawing.draw_chain`.
 
     Returns
     -------
     matplotlib Axes (3D)
     """
-    return chains.draw_chain(numbers(table, "table", (None, 5), values), names=names, frames=frames, tool=tool)
+    return draw_chain(numbers(table, "table", (None, 5), values), names=names, frames=frames, tool=tool)
 
 
 @own_result
 def show_classic_rows(rows, table, values: dict[str, float]):
-    """The last frame of a classic table beside the robot of a modified one.
+    """Show the last frame of a classic table beside the robot of a modified one.
 
     Parameters
     ----------
@@ -151,19 +131,17 @@ def show_classic_rows(rows, table, values: dict[str, float]):
         The frame belongs where the robot's last frame is: Z along the hand.
     """
     cells = numbers(rows, "rows", (None, 4), values)
-    frame = np.eye(4)
-    for a, alpha, d, theta in cells:
-        frame = frame @ walk_frames(list(zip(CLASSIC, (theta, d, a, alpha))))[-1]
+    frame = chain_products(classic_dh(*cells.T))[-1]
     robot = numbers(table, "table", (None, 5), values)
-    ax = chains.draw_chain(robot, frames=())
+    ax = draw_chain(robot, frames=())
     size = 0.16 * np.abs(robot[:, [1, 3]]).sum()
-    drawing.mark_frame(ax, frame, str(len(cells)), size)
+    mark_frame(ax, frame, str(len(cells)), size)
     return ax
 
 
 @own_result
 def show_planar(planar, lengths, angles):
-    """The tip and the heading that a direct model gives, beside the planar arm.
+    """Show the tip and the heading that a direct model gives, beside the planar arm.
 
     Parameters
     ----------
@@ -177,21 +155,21 @@ def show_planar(planar, lengths, angles):
         The cross belongs on the tip, the arrow along the last link.
     """
     x, y, phi = numbers(called(planar, list(lengths), list(angles)), "x, y, phi", (3,), {})
-    ax = strokes.new_axes((5.6, 4.2))
-    strokes.show_plane(ax)
-    strokes.arm(ax, drawing.planar_points(lengths, angles), strokes.POSTURE_SHADES[0])
+    ax = new_axes((5.6, 4.2))
+    show_plane(ax)
+    draw_arm(ax, planar_joints(lengths, angles), POSTURE_SHADES[0])
     reach = 0.3 * sum(lengths)
-    strokes.arrow(ax, (x, y), (x, y) + reach * strokes.unit_vector(phi), width=2, dashes=(0, (4, 2)))
-    strokes.target_mark(ax, (x, y))
+    draw_arrow(ax, (x, y), (x, y) + reach * unit_vector(phi), width=2, dashes=(0, (4, 2)))
+    draw_target(ax, (x, y))
     ax.autoscale_view()
-    for at in ((x, y), (x, y) + reach * strokes.unit_vector(phi)):
-        strokes.keep_in_view(ax, at, 0.1 * sum(lengths))
+    for at in ((x, y), (x, y) + reach * unit_vector(phi)):
+        keep_in_view(ax, at, 0.1 * sum(lengths))
     return ax
 
 
 @own_result
 def show_freedoms(freedoms, tables: dict[str, list]):
-    """What a function counts for some robots, as a table.
+    """Show what a function counts for some robots, as a table.
 
     Parameters
     ----------
@@ -219,7 +197,7 @@ def show_freedoms(freedoms, tables: dict[str, list]):
 
 @own_result
 def show_on_origins(table, origins, axes, values: dict[str, float]):
-    """The frames of a DHm table at zero, over the joint origins of a list, seen from the side (along y).
+    """Show the frames of a DHm table at zero, over the joint origins of a list, seen from the side (along y).
 
     Parameters
     ----------
@@ -235,12 +213,12 @@ def show_on_origins(table, origins, axes, values: dict[str, float]):
     matplotlib Axes
     """
     rows = numbers(table, "table", (None, 5), values)
-    return draw_joint_origins(origins, axes, names=[*range(1, len(axes)), "gripper"], frames=chains.chain_frames(rows))
+    return draw_joint_origins(origins, axes, names=[*range(1, len(axes)), "gripper"], frames=chain_frames(rows))
 
 
 @own_result
-def show_gripper(transform):
-    """The gripper frame beside frame 6.
+def show_gripper_frame(transform):
+    """Show the gripper frame beside frame 6.
 
     Parameters
     ----------
@@ -251,6 +229,6 @@ def show_gripper(transform):
     matplotlib Axes (3D)
     """
     frame = numbers(transform, "transform", (4, 4), {})
-    ax = drawing.draw_frames_3d([np.eye(4), frame], ["6", "g"], size=0.12)
+    ax = draw_frames_3d([np.eye(4), frame], ["6", "g"], size=0.12)
     say_if_not_rigid(ax, frame)
     return ax

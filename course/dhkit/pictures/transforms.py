@@ -6,18 +6,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .. import strokes
-from ..drawing import transforms as drawing
-from ..drawing.transforms import CLASSIC, MODIFIED
-from .own_result import called, numbers, own_result
-from .tables import say_if_not_rigid
+from ..drawing.strokes import keep_in_view, write
+from ..drawing.style import INK
+from ..drawing.transforms import CLASSIC, MODIFIED, draw_point_in_two_frames, draw_walk, mark_shadow, walk_frames
+from ..drawing.view import fit_3d
+from .own_result import called, numbers, own_result, say_if_not_rigid
 
 SIZE = 0.5
 
 
 @own_result
 def show_point(point, shift, turn, in_B):
-    """The coordinates of a point in frame A, as a cross beside the two frames and the point.
+    """Show the coordinates of a point in frame A, as a cross beside the two frames and the point.
 
     Parameters
     ----------
@@ -32,16 +32,16 @@ def show_point(point, shift, turn, in_B):
         The cross belongs on P.
     """
     found = numbers(point, "point", (2,), {})
-    ax = drawing.draw_point_in_two_frames(shift, turn, in_B)
-    ax.plot(*found, marker="x", ms=15, mew=2.4, color=strokes.INK, zorder=9)
-    strokes.write(ax, found + (-0.09, -0.07), "yours", fontsize=10)
-    strokes.keep_in_view(ax, found, 0.2)
+    ax = draw_point_in_two_frames(shift, turn, in_B)
+    ax.plot(*found, marker="x", ms=15, mew=2.4, color=INK, zorder=9)
+    write(ax, found + (-0.09, -0.07), "yours", fontsize=10)
+    keep_in_view(ax, found, 0.2)
     return ax
 
 
 @own_result
 def show_walk(arguments, kinds: Sequence[str], values: dict[str, float]):
-    """The walk that four moves with the given arguments make, over the frame where it should end.
+    """Show the walk that four moves with the given arguments make, over the frame where it should end.
 
     Parameters
     ----------
@@ -57,13 +57,13 @@ def show_walk(arguments, kinds: Sequence[str], values: dict[str, float]):
         Frame i belongs on the grey shadow.
     """
     moves = list(zip(kinds, numbers(arguments, "arguments", (4,), values)))
-    goal = drawing.walk_frames(_moves(MODIFIED, values))[-1]
+    goal = walk_frames(_moves(MODIFIED, values))[-1]
     return _with_shadow(moves, goal, "colour: your walk; grey: where it should end")
 
 
 @own_result
 def show_way_back(inverse, values: dict[str, float]):
-    """The walk from frame i-1 to frame i, and where the given inverse leads from there.
+    """Show the walk from frame i-1 to frame i, and where the given inverse leads from there.
 
     Parameters
     ----------
@@ -78,14 +78,14 @@ def show_way_back(inverse, values: dict[str, float]):
     """
     back = numbers(inverse, "inverse", (4, 4), values)
     moves = _moves(MODIFIED, values)
-    ax = _with_shadow(moves, drawing.walk_frames(moves)[-1] @ back, "grey: where your inverse leads from frame i")
+    ax = _with_shadow(moves, walk_frames(moves)[-1] @ back, "grey: where your inverse leads from frame i")
     say_if_not_rigid(ax, back)
     return ax
 
 
 @own_result
 def show_classic_matrix(matrix, values: dict[str, float]):
-    """The classic walk from frame i-1 to frame i, and the frame of a classic matrix.
+    """Show the classic walk from frame i-1 to frame i, and the frame of a classic matrix.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def show_classic_matrix(matrix, values: dict[str, float]):
 
 @own_result
 def show_parameters(parameters, values: dict[str, float]):
-    """The walk with the four numbers that a function reads out of a matrix, over the frame of that matrix.
+    """Show the walk with the four numbers that a function reads out of a matrix, over the frame of that matrix.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ def show_parameters(parameters, values: dict[str, float]):
     matplotlib Axes (3D)
         Frame i belongs on the grey shadow.
     """
-    goal = drawing.walk_frames(_moves(MODIFIED, values))[-1]
+    goal = walk_frames(_moves(MODIFIED, values))[-1]
     found = numbers(called(parameters, goal.tolist()), "a, alpha, d, theta", (4,), {})
     return _with_shadow(list(zip(MODIFIED, found)), goal, "colour: the walk with your four numbers; grey: the matrix")
 
@@ -132,15 +132,11 @@ def _moves(kinds, values):
 
 def _with_shadow(moves, shadow, caption):
     """A walk, and a frame as a grey shadow, both in view."""
-    ax = drawing.draw_walk(moves, size=SIZE)
-    drawing.mark_shadow(ax, shadow, SIZE)
+    ax = draw_walk(moves, size=SIZE)
+    mark_shadow(ax, shadow, SIZE)
     shown = np.vstack(
-        [
-            frame[:3, 3] + reach * frame[:3, :3].T
-            for frame in (*drawing.walk_frames(moves), shadow)
-            for reach in (0, 0.75)
-        ]
+        [frame[:3, 3] + reach * frame[:3, :3].T for frame in (*walk_frames(moves), shadow) for reach in (0, 0.75)]
     )
-    strokes.fit_3d(ax, shown, own=True, pad=0.4)
+    fit_3d(ax, shown, own=True, pad=0.4)
     ax.figure.text(0.5, 0.02, caption, ha="center", fontsize=9)
     return ax

@@ -1,4 +1,4 @@
-"""A student's result on workspaces: clouds, limits of reach, areas, numbers of postures, the section of an elbow arm."""
+"""A student's result on workspaces: clouds, limits of reach, areas, numbers of postures, a section."""
 
 from __future__ import annotations
 
@@ -8,15 +8,13 @@ import sympy
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Rectangle
 
-from ..drawing import mark_target
-from ..drawing.workspace import (
-    COUNT_SHADES,
-    draw_clouds,
-    draw_section,
-    draw_sheets,
-    mark_edges,
-)
-from ..strokes import AXIS_COLOURS, INK, SOFT, as_numbers, show_plane
+from ..drawing.elbow_workspace import draw_section
+from ..drawing.inputs import as_numbers
+from ..drawing.planar import mark_target
+from ..drawing.planar_2r import hand_distance
+from ..drawing.strokes import show_plane
+from ..drawing.style import AXIS_COLOURS, INK, SOFT
+from ..drawing.workspace import COUNT_SHADES, draw_clouds, draw_sheets, mark_edges
 from .own_result import called, numbers, own_result
 
 INDEXED = ("t1i", "t1j", "t2i", "t2j", "L1", "L2")
@@ -24,7 +22,7 @@ INDEXED = ("t1i", "t1j", "t2i", "t2j", "L1", "L2")
 
 @own_result
 def show_point_function(point, lengths, limits, count=24):
-    """The cloud that a point function gives for all pairs (i, j), over the workspace of the arm.
+    """Show the cloud that a point function gives for all pairs (i, j), over the workspace of the arm.
 
     Parameters
     ----------
@@ -50,7 +48,7 @@ def show_point_function(point, lengths, limits, count=24):
 
 @own_result
 def show_cloud(points, lengths, limits):
-    """A cloud of points over the workspace of the arm.
+    """Show a cloud of points over the workspace of the arm.
 
     Parameters
     ----------
@@ -68,7 +66,7 @@ def show_cloud(points, lengths, limits):
 
 @own_result
 def show_reach_range(reach, lengths, ranges=((0.5, 2.4), (-1.2, 2.2), (1.8, 4.4))):
-    """What a function reach(L1, L2, t2_min, t2_max) returns for some ranges, as lines over the curve of the distance.
+    """Show the reach that a function returns for some ranges of t2, as lines over the curve of the distance.
 
     Parameters
     ----------
@@ -85,7 +83,7 @@ def show_reach_range(reach, lengths, ranges=((0.5, 2.4), (-1.2, 2.2), (1.8, 4.4)
     panels = plt.subplots(1, len(ranges), figsize=(3.3 * len(ranges), 3.1), sharey=True, layout="constrained")[1]
     turn = np.linspace(-np.pi, 2 * np.pi, 400)
     for ax, (low, high), limits in zip(panels, ranges, found):
-        distance = np.hypot(lengths[0] + lengths[1] * np.cos(turn), lengths[1] * np.sin(turn))
+        distance = hand_distance(lengths, turn)
         inside = (turn >= low) & (turn <= high)
         ax.plot(np.degrees(turn), distance, color=SOFT, lw=1.2)
         ax.plot(np.degrees(turn[inside]), distance[inside], color=INK, lw=3)
@@ -100,7 +98,7 @@ def show_reach_range(reach, lengths, ranges=((0.5, 2.4), (-1.2, 2.2), (1.8, 4.4)
 
 @own_result
 def show_area(area, lengths, limits):
-    """A square of the area of an answer beside the workspace, at the same scale.
+    """Show a square of the area of an answer beside the workspace, at the same scale.
 
     Parameters
     ----------
@@ -129,7 +127,7 @@ def show_area(area, lengths, limits):
 
 @own_result
 def show_count(count, lengths, limits):
-    """How many postures a function finds over the plane, with the edges of the arm's sheets on top.
+    """Show how many postures a function finds over the plane, with the edges of the arm's sheets on top.
 
     Parameters
     ----------
@@ -171,7 +169,7 @@ def _counted(count, x, y, lengths, limits) -> float:
 
 @own_result
 def show_section(section, values: dict[str, float]):
-    """A point [rho, z] over the elbow arm in the posture given by `values`; the cross belongs on the hand.
+    """Show a point [rho, z] over the elbow arm in the posture given by `values`; the cross belongs on the hand.
 
     Parameters
     ----------

@@ -9,13 +9,13 @@ import pytest
 from mpl_toolkits.mplot3d import Axes3D
 from sympy import atan2, cos, sin, sqrt, symbols
 
-from dhkit.drawing.orientation import turned
+from dhkit.drawing import turn_in_steps
 from dhkit.pictures.orientation import show_rotation, show_rpy_entries, show_triples, show_wrist, show_wrist_formulas
 
 phi, theta, psi, e, r12, r13, r22, r32, r11 = symbols("phi theta psi e r12 r13 r22 r32 r11")
 SAMPLE = {"phi": 0.4, "theta": 0.6, "psi": 0.8}
 ORDER = ("psi", "theta", "phi")
-ROTATION = turned([0.8, 0.6, 0.4], "zyx")[-1]
+ROTATION = turn_in_steps([0.8, 0.6, 0.4], "zyx")[-1]
 
 pytestmark = pytest.mark.filterwarnings("error")
 

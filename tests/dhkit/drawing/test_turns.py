@@ -7,26 +7,28 @@ matplotlib.use("Agg")
 import numpy as np
 import pytest
 
-from dhkit.drawing import planar_points
-from dhkit.drawing.direct import draw_six_axes, draw_turn_about, draw_turns, turn_about
+from dhkit.drawing import draw_arm_turns, draw_six_axes, draw_turn_about
+from dhkit.drawing.turns import turn_about
+from dhkit.geometry import planar_joints, rotation, rotation_2d
 
 pytestmark = pytest.mark.filterwarnings("error")
 
 
 def test_a_turn_leaves_its_centre_alone():
-    K = turn_about(0.7, np.array([0.3, -0.2]))
+    K = turn_about(rotation_2d(0.7), (0.3, -0.2))
     assert np.allclose(K @ [0.3, -0.2, 1], [0.3, -0.2, 1])
     assert np.allclose(K @ [1.3, -0.2, 1], [0.3 + np.cos(0.7), -0.2 + np.sin(0.7), 1])
+    assert np.allclose(turn_about(rotation("x", 0.7), (1, 2, 3)) @ [5, 2, 3, 1], [5, 2, 3, 1])
 
 
 @pytest.mark.parametrize("hand_first", [True, False])
 def test_both_orders_of_the_turns_end_in_the_same_posture(hand_first):
     lengths, q = (0.5, 0.4, 0.2), (0.6, 0.9, -1.1)
-    panels = draw_turns(lengths, q, hand_first=hand_first)
+    panels = draw_arm_turns(lengths, q, hand_first=hand_first)
     hands = [
         line.get_xydata()[0] for line in panels[-1].lines if line.get_marker() == "o" and line.get_markersize() == 5
     ]
-    assert np.allclose(hands, [planar_points(lengths, q)[-1]])
+    assert np.allclose(hands, [planar_joints(lengths, q)[-1]])
     centres = [ax.lines[-1].get_xydata()[0] for ax in panels]
     fixed = [(0.9, 0), (0.5, 0), (0, 0)]
     assert np.allclose(centres, fixed) == hand_first
@@ -54,7 +56,7 @@ def test_dimensions_stand_in_the_reference_position_only():
     "draw, said",
     [
         (lambda: draw_turn_about(0.5, (1, 2, 3)), "centre: expected 2 numbers"),
-        (lambda: draw_turns((1, 1, -1)), "lengths must be positive"),
+        (lambda: draw_arm_turns((1, 1, -1)), "lengths must be positive"),
         (lambda: draw_six_axes((0, 0, 0)), "t1 to t6: expected 6 numbers"),
     ],
 )

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from sympy import pi, symbols
 
-from dhkit.drawing.scenes import draw_parallel, draw_reading, draw_shelf
+from dhkit.drawing import draw_parallel_axes, draw_reading, draw_shelf
 from dhkit.pictures import parameters as pictures
 
 READING = (0.5, np.radians(40), 0.3, np.radians(50))
@@ -25,10 +25,10 @@ SHOWN = {
     "reading": (pictures.show_reading, [0.5, -0.7, -0.3, 0.87], READING),
     "origin": (pictures.show_origin, [0.2, 0.1, 0.26], SKEW),
     "x_axis": (pictures.show_x_axis, [0.894, -0.447, 0], ([0.2, 0.1, 0.26], *SKEW)),
-    "parallel": (pictures.show_parallel, [0.5, 0.7], (0.4, 0.3, 0.7)),
+    "parallel": (pictures.show_parallel_axes, [0.5, 0.7], (0.4, 0.3, 0.7)),
     "frame": (pictures.show_frame, np.eye(4), SKEW),
     "rewritten": (pictures.show_rewritten, PRINTED, (PRINTED, POSE)),
-    "gripper": (pictures.show_gripper, np.eye(4), (0.5, 0.4)),
+    "gripper": (pictures.show_gripper_at_shelf, np.eye(4), (0.5, 0.4)),
     "link": (pictures.show_link, lambda P, u, Q, v: [0.8, 0.0], ()),
 }
 
@@ -44,7 +44,7 @@ def marks(ax) -> np.ndarray:
     return np.array([np.ravel(line.get_data_3d()) for line in ax.lines if line.get_marker() == "+"])
 
 
-@pytest.mark.parametrize("draw", [draw_reading, draw_parallel, draw_shelf])
+@pytest.mark.parametrize("draw", [draw_reading, draw_parallel_axes, draw_shelf])
 def test_scenes_can_be_drawn(draw):
     ax = draw()
     ax.figure.canvas.draw()
@@ -78,7 +78,7 @@ def test_a_frame_is_marked_where_the_parameters_put_it():
 
 def test_an_origin_and_a_height_are_marked():
     assert marks(pictures.show_origin([0.1, 0.2, 0.3], *SKEW)) == pytest.approx(np.array([[0.1, 0.2, 0.3]]))
-    assert marks(pictures.show_parallel([0.5, 0.6], 0.4, 0.3, 0.7)) == pytest.approx(np.array([[0, 0, 0.6]]))
+    assert marks(pictures.show_parallel_axes([0.5, 0.6], 0.4, 0.3, 0.7)) == pytest.approx(np.array([[0, 0, 0.6]]))
 
 
 def test_x_starts_in_p_while_there_is_no_origin():
@@ -99,5 +99,5 @@ def test_another_robot_looks_different():
 
 
 def test_a_frame_that_is_none_is_told():
-    ax = pictures.show_gripper(2 * np.eye(4), 0.5, 0.4)
+    ax = pictures.show_gripper_at_shelf(2 * np.eye(4), 0.5, 0.4)
     assert any("not a rigid displacement" in text.get_text() for text in ax.figure.texts)

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from sympy import Matrix, Symbol, cos, sin
 
-from dhkit.drawing.chains import chain_frames
-from dhkit.drawing.direct import turn_in_space
+from dhkit.drawing import chain_frames
+from dhkit.drawing.turns import turn_about
+from dhkit.geometry import rotation
 from dhkit.pictures import direct_models as pictures
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -24,7 +25,7 @@ SHOWS = {
     "turned_hand": lambda answer: pictures.show_turned_hand(answer, SCARA),
     "tool_point": lambda answer: pictures.show_tool_point(answer, SCARA),
     "turns": lambda answer: pictures.show_turns(answer, ARM),
-    "wrist": lambda answer: pictures.show_wrist(answer, ARM),
+    "wrist": lambda answer: pictures.show_wrist_centre(answer, ARM),
     "marks": lambda answer: pictures.show_marks(answer, PRINTED),
     "on_rx90": lambda answer: pictures.show_on_rx90(answer, ROBOT),
     "rx90_forward": lambda answer: pictures.show_rx90_forward(answer, MINE),
@@ -55,7 +56,7 @@ def test_the_hand_turns_about_its_centre_only_with_the_right_column():
 def test_links_carried_by_right_turns_end_on_the_hand():
     q = [ARM[f"t{i}"] for i in range(1, 7)]
     centres = ([0, 0, 0], [0, 0, 0], [0, 0, 0.5], [0.2, 0, 0], [0, 0, 1.1], [0.2, 0, 0])
-    K = [turn_in_space(letter, angle, np.array(centre)) for letter, angle, centre in zip("zxxzxz", q, centres)]
+    K = [turn_about(rotation(letter, angle), np.array(centre)) for letter, angle, centre in zip("zxxzxz", q, centres)]
 
     def gap(K):
         ax = SHOWS["turns"](K)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from matplotlib.patches import Polygon
 
-from dhkit.drawing.s600 import LENGTHS, draw_s600_side, draw_s600_top, draw_type8
+from dhkit.drawing.scara_s600 import LENGTHS, draw_s600_side, draw_s600_top, draw_type8
 
 Q = np.radians([30, 50, 20])
 

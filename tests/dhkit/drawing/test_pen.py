@@ -10,8 +10,7 @@ import sympy
 from matplotlib.patches import Circle
 
 from dhkit.curves import PEN_CURVES, pen_path
-from dhkit.drawing import pen
-from dhkit.drawing.chains import chain_frames
+from dhkit.drawing import chain_frames, pen
 from dhkit.pictures import pen as pictures
 
 Q = np.radians([35, 20, 45])
@@ -22,12 +21,12 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 @pytest.mark.parametrize("repaired", [False, True])
 def test_the_tip_is_the_product_of_the_table(repaired):
-    h1, L1, h2, L2, p1 = pen.SIZES.values()
+    h1, L1, h2, L2, p1 = pen.PEN_SIZES.values()
     last = [0, L2, 0, 0, Q[2]] if repaired else [0, 0, 0, L2, Q[2]]
     rows = [[0, 0, 0, h1, Q[0]], [0, L1, -HALF, h2, Q[1] - HALF], last, [0, p1, 0, 0, 0]]
     assert pen.pen_tip(Q, repaired=repaired) == pytest.approx(chain_frames(rows)[-1][:3, 3])
-    at = pen._joints_in_space(Q, pen.SIZES, repaired)
-    assert at["P"] == pytest.approx(pen.pen_tip(Q, repaired=repaired))
+    (dot,) = [line for line in pen.draw_pen_robot(Q, repaired=repaired).lines if line.get_marker() == "o"]
+    assert np.ravel(dot.get_data_3d()) == pytest.approx(pen.pen_tip(Q, repaired=repaired))
 
 
 def test_the_tip_known_by_hand():
@@ -67,7 +66,7 @@ def test_the_circles_on_the_sheet_are_points_of_the_surface():
     [
         (lambda: pen.draw_pen_robot(Q[:2]), "expected 3 numbers"),
         (lambda: pen.draw_pen_robot(Q, {"h1": 1}), "a length for L1, L2, h2, p1"),
-        (lambda: pen.draw_pen_views(Q, pen.SIZES | {"p1": -1}), "lengths must be positive"),
+        (lambda: pen.draw_pen_views(Q, pen.PEN_SIZES | {"p1": -1}), "lengths must be positive"),
         (lambda: pen.draw_pen_robot(Q, curve=[(1, 2)]), "curve: expected n x 3"),
     ],
 )
@@ -92,25 +91,25 @@ def test_there_are_no_other_curves():
         pen_path("star")
 
 
-VALUES = pen.SIZES | {"t1": -0.4, "t2": 0.5, "t3": 1.2}
+VALUES = pen.PEN_SIZES | {"t1": -0.4, "t2": 0.5, "t3": 1.2}
 CURVE = pen.pen_curve("eight", count=13)
 x, y, p1 = sympy.symbols("x y p1")
 
 
 def right_follow(px, py, pz):
-    side = pen.SIZES["h2"] + pen.SIZES["L2"]
+    side = pen.PEN_SIZES["h2"] + pen.PEN_SIZES["L2"]
     rho = np.sqrt(px**2 + py**2 - side**2)
-    phi = np.arctan2(rho - pen.SIZES["L1"], pz - pen.SIZES["h1"])
+    phi = np.arctan2(rho - pen.PEN_SIZES["L1"], pz - pen.PEN_SIZES["h1"])
     return np.arctan2(py, px) - np.arctan2(side, rho), phi / 2, phi / 2
 
 
 PICTURES = {
     "tip": (pictures.show_tip, (VALUES,), [0.1, 0.2, sympy.Symbol("h1")]),
     "repaired": (lambda tip, values: pictures.show_tip(tip, values, repaired=True), (VALUES,), [0.4, 0.2]),
-    "height": (pictures.show_height, (pen.SIZES,), p1**2 - sympy.sqrt(x**2 + y**2 - 0.05)),
-    "circles": (pictures.show_circles, (pen.SIZES, 0.2), {"small": 0.2, "large": 0.5}),
-    "inverse": (pictures.show_pen_inverse, (pen.SIZES,), lambda *point: [(0.1, 0.2)]),
-    "follow": (pictures.show_trace, (CURVE, pen.SIZES), right_follow),
+    "height": (pictures.show_height, (pen.PEN_SIZES,), p1**2 - sympy.sqrt(x**2 + y**2 - 0.05)),
+    "circles": (pictures.show_circles, (pen.PEN_SIZES, 0.2), {"small": 0.2, "large": 0.5}),
+    "inverse": (pictures.show_pen_inverse, (pen.PEN_SIZES,), lambda *point: [(0.1, 0.2)]),
+    "follow": (pictures.show_trace, (CURVE, pen.PEN_SIZES), right_follow),
 }
 
 
@@ -130,14 +129,14 @@ def test_an_answer_is_drawn_and_nothing_is_said_to_be_nothing(name):
 
 
 def test_the_trace_is_measured_and_the_stops_are_looked_at():
-    assert "mm from the curve" in words(pictures.show_trace(right_follow, CURVE, pen.SIZES))
+    assert "mm from the curve" in words(pictures.show_trace(right_follow, CURVE, pen.PEN_SIZES))
     greedy = lambda *point: (right_follow(*point)[0], 0.0, 2 * right_follow(*point)[2])  # noqa: E731
-    assert r"$\theta_3$ beyond the stop" in words(pictures.show_trace(greedy, CURVE, pen.SIZES))
+    assert r"$\theta_3$ beyond the stop" in words(pictures.show_trace(greedy, CURVE, pen.PEN_SIZES))
     turned = lambda *point: (right_follow(*point)[0] + 0.01, *right_follow(*point)[1:])  # noqa: E731
     distance = 10 * np.hypot(*CURVE[:, :2].T).max()
-    assert f"at most {distance:.2g} mm" in words(pictures.show_trace(turned, CURVE, pen.SIZES))
+    assert f"at most {distance:.2g} mm" in words(pictures.show_trace(turned, CURVE, pen.PEN_SIZES))
 
 
 def test_a_solution_that_misses_is_counted():
-    assert "a solution misses (54)" in words(pictures.show_pen_inverse(lambda *point: [(0.1, 0.2)], pen.SIZES))
-    assert "no solution (54)" in words(pictures.show_pen_inverse(lambda *point: [], pen.SIZES))
+    assert "a solution misses (54)" in words(pictures.show_pen_inverse(lambda *point: [(0.1, 0.2)], pen.PEN_SIZES))
+    assert "no solution (54)" in words(pictures.show_pen_inverse(lambda *point: [], pen.PEN_SIZES))

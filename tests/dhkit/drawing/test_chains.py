@@ -11,7 +11,7 @@ from matplotlib.transforms import Bbox
 from mpl_toolkits.mplot3d import proj3d
 from sympy import Matrix, pi, symbols
 
-from dhkit.drawing.chains import chain_frames, draw_chain, draw_chain_postures
+from dhkit.drawing import chain_frames, draw_chain
 
 t1, t2, t3, t4, t5, t6, a2, a3, d2, d4 = symbols("t1 t2 t3 t4 t5 t6 a2 a3 d2 d4")
 
@@ -134,21 +134,6 @@ def test_labels_of_a_posed_robot_keep_clear_of_each_other():
             )
 
 
-def test_postures_are_counted_and_meet_at_the_target():
-    q = [(0.2, 1.0), (1.1, -1.0)]
-    target = (0.5 * np.cos(0.2) + 0.5 * np.cos(1.2), 0.5 * np.sin(0.2) + 0.5 * np.sin(1.2), 0)
-    ax = draw_chain_postures(PLANAR, ["t1", t2], q, {"a2": 0.5, "a3": 0.5}, tool=True, target=target)
-    assert [text.get_text() for text in ax.figure.legends[0].get_texts()] == ["posture 1", "posture 2"]
-    assert {"1", "2"} <= set(texts(ax))
-    marks = [line.get_data_3d() for line in ax.lines if line.get_marker() == "+"]
-    assert np.ravel(marks) == pytest.approx(target)
-
-
-def test_no_posture_is_said():
-    ax = draw_chain_postures(PLANAR, ["t1", "t2"], [], {"a2": 0.5, "a3": 0.5}, tool=True, target=(2, 0, 0))
-    assert "no posture" in texts(ax)
-
-
 @pytest.mark.parametrize(
     ("draw", "message"),
     [
@@ -160,10 +145,6 @@ def test_no_posture_is_said():
         (lambda: draw_chain([]), "table"),
         (lambda: draw_chain(KR210, tool=True, frames=(9,)), "frames: expected indices from 0 to 7, found 9"),
         (lambda: draw_chain(WRIST, names=("0", "1")), "names: expected 4"),
-        (
-            lambda: draw_chain_postures(PLANAR, ["t1", "t2"], [(1, 2, 3)]),
-            "solutions: expected n x 2 numbers, found 1 x 3",
-        ),
     ],
 )
 def test_bad_input_is_refused_in_words(draw, message):

@@ -10,7 +10,8 @@ import pytest
 from matplotlib.patches import Circle
 from mpl_toolkits.mplot3d import proj3d
 
-from dhkit import drawing, strokes
+from dhkit import drawing
+from dhkit.drawing.style import styled
 
 Q = (0.6, 0.9)
 LENGTHS = (0.5, 0.4)
@@ -84,7 +85,7 @@ def test_drawing_leaves_the_readers_settings_alone():
 
 
 def test_drawing_keeps_the_interactive_mode_that_a_backend_sets_meanwhile():
-    @strokes.styled
+    @styled
     def load_backend():
         plt.ion()
 
@@ -99,11 +100,6 @@ def test_planar_arm_names_every_angle_and_length():
     assert {r"$\theta_1$", r"$\theta_2$", "$L_1$", "$L_2$", "$P$", "$x_0$", "$y_0$"} <= set(
         texts(drawing.draw_planar_arm(LENGTHS, Q))
     )
-
-
-def test_planar_points_measure_each_angle_from_the_link_before():
-    points = drawing.planar_points((0.5, 0.4), (np.pi / 2, -np.pi / 2))
-    assert points == pytest.approx(np.array([[0, 0], [0, 0.5], [0.4, 0.5]]))
 
 
 @pytest.mark.parametrize("count", [1, 2, 4])

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import sympy
 
-from dhkit import strokes
+from dhkit.drawing.style import SOFT
 from dhkit.drawing.transforms import walk_frames
 from dhkit.pictures import transforms as pictures
 
@@ -23,7 +23,7 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 def shadow(ax) -> np.ndarray:
     """Origin of the grey frame."""
-    lines = [line for line in ax.lines if line.get_color() == strokes.SOFT and line.get_linewidth() == 7]
+    lines = [line for line in ax.lines if line.get_color() == SOFT and line.get_linewidth() == 7]
     assert len(lines) == 3
     return np.array([line.get_data_3d() for line in lines])[0, :, 0]
 

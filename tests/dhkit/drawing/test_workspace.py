@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import sympy
 
-from dhkit.drawing import planar_points
-from dhkit.drawing import workspace as ws
+from dhkit import drawing as ws
+from dhkit.geometry import planar_joints
 from dhkit.pictures import workspace as pictures
 
 LENGTHS = (0.5, 0.3)
@@ -43,9 +43,9 @@ def test_every_drawing_can_be_shown(name):
 
 
 def test_points_of_the_grid_are_those_of_the_direct_model():
-    points = ws.rr_points(LENGTHS, [0.1, 0.4, 0.9], [0.2, 0.8])
+    points = ws.grid_points(LENGTHS, [0.1, 0.4, 0.9], [0.2, 0.8])
     assert points.shape == (3, 2, 2)
-    assert points[2, 1] == pytest.approx(planar_points(LENGTHS, (0.9, 0.8))[2])
+    assert points[2, 1] == pytest.approx(planar_joints(LENGTHS, (0.9, 0.8))[2])
 
 
 @pytest.mark.parametrize("limits", [ONE_WAY, BOTH_WAYS, [(-np.pi, np.pi)] * 2])
@@ -54,7 +54,7 @@ def test_the_count_of_postures_agrees_with_the_cloud(limits):
     random = np.random.default_rng(3)
     limits = np.array(limits)
     for q in random.uniform(limits[:, 0], limits[:, 1], (200, 2)):
-        x, y = planar_points(LENGTHS, q)[2]
+        x, y = planar_joints(LENGTHS, q)[2]
         mirror = np.array([2 * np.arctan2(y, x) - q[0], -q[1]])
         allowed = (np.mod(mirror - limits[:, 0], 2 * np.pi) <= np.ptp(limits, axis=1)).all()
         assert ws.count_postures(LENGTHS, limits, (x, y)) == 1 + allowed
@@ -68,7 +68,7 @@ def test_the_marked_point_is_the_image_of_the_marked_pair():
     plane = ws.draw_joint_grid(LENGTHS, ONE_WAY, counts=(9, 7), chosen=(6, 4))
     q = [np.linspace(*ONE_WAY[0], 9)[5], np.linspace(*ONE_WAY[1], 7)[3]]
     label = next(text for text in plane.texts if text.get_text() == "$p_{ij}$")
-    assert label.xy == pytest.approx(planar_points(LENGTHS, q)[2])
+    assert label.xy == pytest.approx(planar_joints(LENGTHS, q)[2])
 
 
 def test_only_the_straight_elbow_makes_a_bold_edge():
@@ -101,7 +101,7 @@ POINT = [L1 * sympy.cos(t1i) + L2 * sympy.cos(t1i + t2j), L1 * sympy.sin(t1i) + 
 VALUES = {"t2": 1.2, "t3": -1.0, "L1": 0.5, "L2": 0.3}
 PICTURES = {
     "point": (pictures.show_point_function, (LENGTHS, ONE_WAY), POINT),
-    "cloud": (pictures.show_cloud, (LENGTHS, ONE_WAY), ws.rr_points(LENGTHS, [0.1, 0.5], [0.7, 0.9]).reshape(-1, 2)),
+    "cloud": (pictures.show_cloud, (LENGTHS, ONE_WAY), ws.grid_points(LENGTHS, [0.1, 0.5], [0.7, 0.9]).reshape(-1, 2)),
     "reach": (pictures.show_reach_range, (LENGTHS,), lambda *args: [0.2, 0.8]),
     "area": (pictures.show_area, (LENGTHS, ONE_WAY), 0.85),
     "count": (pictures.show_count, (LENGTHS, BOTH_WAYS), lambda *args: 1),

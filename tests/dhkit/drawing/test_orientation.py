@@ -8,7 +8,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from dhkit.drawing.orientation import draw_atan2, draw_flip, draw_gimbal, draw_top, draw_turns, gimbal_axes, turned
+from dhkit.drawing import draw_atan2, draw_brick_turns, draw_flip, draw_gimbal, draw_top, turn_in_steps
+from dhkit.drawing.gimbal import gimbal_axes
 
 ANGLES = np.radians([50, 35, 20])
 
@@ -20,7 +21,7 @@ def texts(ax) -> list[str]:
 
 
 def test_moving_axes_in_one_order_are_fixed_axes_in_the_other():
-    moving, fixed = turned(ANGLES, "zyx"), turned(ANGLES[::-1], "xyz", "fixed")
+    moving, fixed = turn_in_steps(ANGLES, "zyx"), turn_in_steps(ANGLES[::-1], "xyz", "fixed")
     assert moving[-1] == pytest.approx(fixed[-1])
     assert not np.allclose(moving[1], fixed[1])
     assert moving[-1][2] == pytest.approx(
@@ -31,7 +32,7 @@ def test_moving_axes_in_one_order_are_fixed_axes_in_the_other():
 def test_hinges_of_the_second_solution_carry_the_same_hand():
     psi, theta, phi = ANGLES
     other = [psi + np.pi, np.pi - theta, phi + np.pi]
-    assert turned(other, "zyx")[-1] == pytest.approx(turned(ANGLES, "zyx")[-1])
+    assert turn_in_steps(other, "zyx")[-1] == pytest.approx(turn_in_steps(ANGLES, "zyx")[-1])
     assert gimbal_axes(other, "zyx")[1] == pytest.approx(-gimbal_axes(ANGLES, "zyx")[1])
 
 
@@ -46,8 +47,8 @@ def test_locked_rings_show_two_lines_and_free_rings_three():
 
 
 def test_turns_name_every_step():
-    assert texts(draw_turns(ANGLES, "zyx", about="fixed")).count("1. about the fixed $z$: 50°") == 1
-    assert sum("about" in text for text in texts(draw_turns(ANGLES[:2], "xz"))) == 2
+    assert texts(draw_brick_turns(ANGLES, "zyx", about="fixed")).count("1. about the fixed $z$: 50°") == 1
+    assert sum("about" in text for text in texts(draw_brick_turns(ANGLES[:2], "xz"))) == 2
 
 
 def test_top_marks_the_axle_and_the_three_angles():
@@ -68,9 +69,9 @@ def test_flip_falls_from_half_a_turn_through_a_quarter():
 @pytest.mark.parametrize(
     ("draw", "message"),
     [
-        (lambda: draw_turns([1, 2], "zyx"), "angles: expected 3 numbers, found 2"),
-        (lambda: draw_turns([1], "q"), "axes: expected letters x, y, z, found 'q'"),
-        (lambda: draw_turns([1], "z", about="own"), 'about: expected "moving" or "fixed"'),
+        (lambda: draw_brick_turns([1, 2], "zyx"), "angles: expected 3 numbers, found 2"),
+        (lambda: draw_brick_turns([1], "q"), "axes: expected letters x, y, z, found 'q'"),
+        (lambda: draw_brick_turns([1], "z", about="own"), 'about: expected "moving" or "fixed"'),
         (lambda: draw_gimbal([1, 2, 3], "zzy"), "axes: neighbours must differ"),
         (lambda: draw_gimbal([1, 2], "zyx"), "angles: expected n x 3 numbers"),
         (lambda: draw_top(axes="xyz"), 'axes: expected "zxz" or "zyz"'),

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import sympy
 
-from dhkit.drawing.chains import chain_frames
+from dhkit.drawing import chain_frames
 from dhkit.pictures import inverse_models as pictures
 
 H = np.pi / 2
