@@ -19,6 +19,7 @@ from dataclasses import replace
 import numpy as np
 import sympy
 
+from autograder.reference.transforms import classic_dh
 from dhkit.forms.dh_table import DH_COLUMNS
 
 from .question import Mistake, Step, Wrong, mistake
@@ -251,12 +252,6 @@ def _constant_in_degrees(cell) -> sympy.Expr:
 # ---------------------------------------------------------------- transforms
 
 
-def classic_transform(a, alpha, d, theta) -> sympy.Matrix:
-    """The elementary matrix of classic DH: ``Rot_z(theta) Trans_z(d) Trans_x(a) Rot_x(alpha)``."""
-    c, s, ca, sa = sympy.cos(theta), sympy.sin(theta), sympy.cos(alpha), sympy.sin(alpha)
-    return sympy.Matrix([[c, -s * ca, s * sa, a * c], [s, c * ca, -c * sa, a * s], [0, sa, ca, d], [0, 0, 0, 1]])
-
-
 def product(transforms: Sequence[sympy.Matrix]) -> sympy.Matrix:
     """The plain product of transforms, left to right."""
     result = sympy.eye(len(transforms[0].row(0)))
@@ -272,7 +267,7 @@ def classic_matrix(*rows: Sequence, **other) -> Mistake:
         0.3,
         "**This is the matrix of classic Denavit-Hartenberg.** The modified form begins with the step along and about "
         "X, and ends with the step along and about Z. See the slide that compares the two conventions.",
-        lambda _: product([classic_transform(*row) for row in rows]),
+        lambda _: product([classic_dh(*row) for row in rows]),
         **other,
     )
 

@@ -18,6 +18,8 @@ from typing import Any, Protocol, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
+from dhkit.geometry import lies_between, two_link
+
 
 class HasForward(Protocol):
     """A robot with forward kinematics."""
@@ -273,18 +275,10 @@ class RRArm:
 
     def contains(self, points: ArrayLike, tolerance: float = 1e-9) -> np.ndarray:
         """Whether points (..., 2) can be reached, within `tolerance` radians and metres."""
-        x, y = np.moveaxis(np.asarray(points, float), -1, 0)
-        r = np.hypot(x, y)
-        near, far = abs(self.l1 - self.l2), self.l1 + self.l2
-        in_reach = (r >= near - tolerance) & (r <= far + tolerance)
-        r = np.clip(r, near, far)
-        s = 2 * np.arctan2(np.sqrt((far - r) * (far + r)), np.sqrt((r - near) * (r + near)))
-        inside = np.zeros(r.shape, bool)
-        for bend in (s, -s):
-            first = np.arctan2(y, x) - np.arctan2(self.l2 * np.sin(bend), self.l1 + self.l2 * np.cos(bend))
-            free = r <= tolerance
-            inside |= _within(bend, self.q2, tolerance) & (_within(first, self.q1, tolerance) | free)
-        return in_reach & inside
+        target = np.asarray(points, float) @ (1, 1j)
+        arm = two_link(target, self.l1, self.l2, tol=tolerance)
+        first = lies_between(arm.first, *self.q1, tolerance) | (np.abs(target) <= tolerance)
+        return arm.valid[0] & (lies_between(arm.bend, *self.q2, tolerance) & first).any(axis=0)
 
     def boundary(self, step: float = 0.01) -> list[np.ndarray]:
         """Outline of the workspace: list of curves (k, 2), points at most `step` radians apart.
@@ -292,7 +286,7 @@ class RRArm:
         The arcs of the joint limits and of the stretched and folded arm, without the
         parts that lie inside the workspace.
         """
-        inner = [s for s in (0.0, np.pi) if _within(s, self.q2, 0)]
+        inner = [s for s in (0.0, np.pi) if lies_between(s, *self.q2)]
         curves: list[tuple[ArrayLike, ArrayLike]]
         curves = [(self._ramp(self.q1, step), q2) for q2 in dict.fromkeys([*self.q2, *inner])]
         if self._span < 2 * np.pi:
@@ -316,7 +310,7 @@ class RRArm:
     def _corners(self) -> list[float]:
         """Elbow angles in [0, pi] between which the radius is extreme or a sheet ends."""
         ends = [abs(float(np.angle(np.exp(1j * q)))) for q in self.q2]
-        return ends + [s for s in (0.0, np.pi) if _within(s, self.q2, 1e-12)]
+        return ends + [s for s in (0.0, np.pi) if lies_between(s, *self.q2, 1e-12)]
 
     def _pieces(self) -> tuple[np.ndarray, np.ndarray]:
         """Ends and middles of the elbow angles between which `area` has one formula."""
@@ -330,7 +324,7 @@ class RRArm:
         return apart, (apart[:-1] + apart[1:]) / 2
 
     def _sheets(self, s: float) -> tuple[bool, bool]:
-        return bool(_within(s, self.q2, 0)), bool(_within(-s, self.q2, 0))
+        return bool(lies_between(s, *self.q2)), bool(lies_between(-s, *self.q2))
 
     def _radius(self, s: float | np.ndarray) -> np.ndarray:
         return np.sqrt(np.maximum(self.l1**2 + self.l2**2 + 2 * self.l1 * self.l2 * np.cos(s), 0))
@@ -352,12 +346,6 @@ class RRArm:
     def _ramp(limits: tuple[float, float], step: float) -> np.ndarray:
         low, high = limits[0], min(limits[1], limits[0] + 2 * np.pi)
         return np.linspace(low, high, max(2, int(np.ceil((high - low) / step)) + 1))
-
-
-def _within(angle: ArrayLike, limits: tuple[float, float], tolerance: float) -> np.ndarray:
-    """Whether an angle lies in a range, modulo full turns."""
-    past = np.mod(np.asarray(angle) - limits[0] + tolerance, 2 * np.pi)
-    return past <= limits[1] - limits[0] + 2 * tolerance
 
 
 def _limits(limits: ArrayLike) -> np.ndarray:

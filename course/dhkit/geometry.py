@@ -58,6 +58,24 @@ def wrap(angle: ArrayLike, rounding: float = 6e-13) -> np.ndarray:
     return np.where(np.abs(turns) < 1e9, near, np.pi - np.remainder(np.pi - angle, 2 * np.pi))[()]
 
 
+def lies_between(angle: ArrayLike, low: ArrayLike, high: ArrayLike, tolerance: float = 0.0) -> np.ndarray:
+    """Whether an angle lies in a range, modulo full turns.
+
+    Parameters
+    ----------
+    angle, low, high : array_like, in radians
+        They broadcast against each other; the range runs from `low` up to `high`.
+    tolerance : float, in radians
+        By how much the angle may miss the range.
+
+    Returns
+    -------
+    ndarray of bool
+    """
+    past = np.mod(np.asarray(angle) - low + tolerance, 2 * np.pi)
+    return past <= np.subtract(high, low) + 2 * tolerance
+
+
 def phasor(angle: ArrayLike) -> np.ndarray:
     """The complex number e^(i angle), which turns points x + iy of a plane by `angle`.
 

@@ -10,6 +10,7 @@ from dhkit.geometry import (
     chain_products,
     classic_dh,
     common_normal,
+    lies_between,
     link_axis,
     modified_dh,
     modified_dh_of_cosines,
@@ -51,6 +52,19 @@ def test_wrap_agrees_with_the_angle_of_the_complex_number_and_takes_any_shape():
     assert np.allclose(wrap(angles), np.angle(np.exp(1j * angles)))
     assert wrap(np.nextafter(-np.pi, 0)) == np.pi  # a rounding neighbour is the same angle
     assert (wrap(ROUND) <= np.pi).all() and (wrap(ROUND) > -np.pi).all()
+
+
+@pytest.mark.parametrize(
+    ("angle", "low", "high", "inside"),
+    [(0, -1, 1, True), (2 * np.pi, -1, 1, True), (2, -1, 1, False), (-3, 3, 4, True), (np.pi, 0, 2 * np.pi, True)],
+)
+def test_a_range_holds_an_angle_modulo_full_turns(angle, low, high, inside):
+    assert lies_between(angle, low, high) == inside
+    assert lies_between(angle - 4 * np.pi, [low, low], high).tolist() == [inside, inside]
+
+
+def test_a_range_may_be_missed_by_the_tolerance():
+    assert lies_between([0.99, 2.01], 1, 2, 0.02).all() and not lies_between([0.99, 2.01], 1, 2, 0.005).any()
 
 
 def test_directions_of_the_plane():

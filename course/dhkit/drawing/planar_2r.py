@@ -9,7 +9,7 @@ import itertools
 
 import numpy as np
 
-from ..geometry import planar_joints, two_link
+from ..geometry import lies_between, planar_joints, two_link
 from .inputs import as_joint_limits, as_lengths, as_numbers
 
 
@@ -55,8 +55,7 @@ def solve_within_limits(lengths, limits, points) -> tuple[np.ndarray, np.ndarray
     limits = as_joint_limits(limits)
     arm = two_link(np.asarray(points, float) @ (1, 1j), l1, l2)
     q = np.stack([arm.first, arm.bend], axis=-1)
-    past = np.mod(q - limits[:, 0], 2 * np.pi)
-    return q, arm.valid & (past <= np.ptp(limits, axis=1)).all(axis=-1)
+    return q, arm.valid & lies_between(q, *limits.T).all(axis=-1)
 
 
 def count_postures(lengths, limits, points) -> np.ndarray:
