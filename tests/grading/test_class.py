@@ -16,6 +16,8 @@ from nbgrader.apps import AutogradeApp, ExportApp, GenerateFeedbackApp
 
 from autograder import cli
 
+pytestmark = [pytest.mark.slow, pytest.mark.sandbox]
+
 NOTHING = ["not_attempted"] * 3
 UNREADABLE = ["unreadable"] * 3
 RIGHT = ["right"] * 3

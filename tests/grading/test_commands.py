@@ -147,6 +147,7 @@ def test_without_a_sandbox_grading_is_refused(course_copy, small, released, caps
     assert "20/20" in output.out and "no sandbox; students' code runs with your rights" in output.err
 
 
+@pytest.mark.sandbox
 def test_a_submission_that_cannot_be_judged_is_said_and_the_others_are_graded(
     course_copy, small, released, capsys, monkeypatch
 ):
@@ -180,6 +181,7 @@ def test_outside_a_course(tmp_path, capsys, monkeypatch):
     assert "is not a course folder" in capsys.readouterr().err
 
 
+@pytest.mark.sandbox
 def test_a_course_is_found_from_a_folder_inside(course_copy, small, released, capsys, monkeypatch):
     small.hand_in(course_copy, "ann", released)
     monkeypatch.chdir(course_copy / "submitted/ann")
@@ -187,6 +189,7 @@ def test_a_course_is_found_from_a_folder_inside(course_copy, small, released, ca
     assert "handed in: ann" in capsys.readouterr().err
 
 
+@pytest.mark.sandbox
 def test_manual_points_stay_and_the_feedback_can_be_written_again(course_copy, small, released, capsys):
     from nbgrader.api import Gradebook
 
@@ -267,6 +270,7 @@ def test_the_repositorys_own_bundle_holds_no_solution(small, tmp_path):
                 assert not [line for line in lines if len(line) > 25 and json.dumps(line)[1:-1] in text]
 
 
+@pytest.mark.sandbox
 def test_doctor_finds_everything_here(small, capsys):
     assert run(small.REPOSITORY, "doctor") == 0
     out = capsys.readouterr().out
@@ -288,6 +292,7 @@ def test_doctor_says_what_is_missing(tmp_path, capsys, monkeypatch):
     assert "missing  alembic" in out and "missing  gradebook" in out and "run: make setup" in out
 
 
+@pytest.mark.sandbox
 def test_an_interrupt_leaves_a_gradebook_and_no_kernel(course_copy, small, released, tmp_path):
     for number in range(4):
         small.hand_in(course_copy, f"loop{number}", small.answered(released, T04="while True: pass"))

@@ -13,6 +13,8 @@ import pytest
 from autograder.grading.course import open_course
 from autograder.grading.results import QuestionResult, Result
 
+pytestmark = pytest.mark.sandbox
+
 PLAIN = {"PATH": "/usr/bin:/bin", "HOME": os.environ.get("HOME", "/")}
 
 

@@ -18,7 +18,7 @@ from write import REPOSITORY, solution, write_class
 from autograder.questions import exercises
 from autograder.sandbox import available
 
-pytestmark = [pytest.mark.xdist_group("sample_class"), pytest.mark.slow, pytest.mark.sandbox]
+pytestmark = [pytest.mark.slow, pytest.mark.sandbox]
 
 SANDBOX = available() is None
 CLASS = [submission for submission in submissions() if SANDBOX or not submission.harmful]

@@ -12,6 +12,8 @@ from autograder import sandbox
 from autograder.sandbox import clock, watch
 from autograder.sandbox.clock import FairClock, Observation, Spent, time_up
 
+pytestmark = pytest.mark.sandbox
+
 
 def spend(steps, period=0.2):
     """(processor, own, wall) that a fair clock counts for steps of (processor seconds, held up)."""

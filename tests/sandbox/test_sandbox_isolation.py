@@ -13,6 +13,8 @@ import pytest
 from autograder import sandbox
 from autograder.sandbox import bubblewrap, seccomp
 
+pytestmark = pytest.mark.sandbox
+
 READ = """
 import os
 def attempt(path):

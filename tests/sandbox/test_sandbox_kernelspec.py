@@ -12,6 +12,8 @@ from nbclient.exceptions import CellExecutionError
 from autograder.sandbox.kernelspec import PROVISIONER, SandboxKernelSpecs
 from autograder.sandbox.provisioner import SandboxProvisioner
 
+pytestmark = pytest.mark.sandbox
+
 INSIDE = "import os; print(os.getcwd()); import autograder"
 
 

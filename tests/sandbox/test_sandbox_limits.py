@@ -12,6 +12,8 @@ import pytest
 from autograder import sandbox
 from autograder.sandbox import watch
 
+pytestmark = pytest.mark.sandbox
+
 MIB = 1 << 20
 
 

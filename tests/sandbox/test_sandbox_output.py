@@ -8,6 +8,8 @@ import pytest
 
 from autograder import sandbox
 
+pytestmark = pytest.mark.sandbox
+
 ENDLESS = "while True: print('x' * 1000)"
 HUGE = "print('y' * 500_000_000)"
 MULTIPART = """

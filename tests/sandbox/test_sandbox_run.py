@@ -18,6 +18,8 @@ import pytest
 from autograder import sandbox
 from autograder.sandbox import client, provisioner, scratch
 
+pytestmark = pytest.mark.sandbox
+
 SHORT = sandbox.Limits(cell_seconds=1.5, notebook_seconds=60)
 
 
