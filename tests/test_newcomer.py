@@ -119,7 +119,8 @@ class Newcomer:
         if place := named("as the last of `QUESTIONS` in", block.said):
             return self.write(place, block, lambda text: f"{text.removesuffix(TUPLE_END)}\n{block.text})\n")
         if place := named("at the end of", block.said):
-            return self.write(place, block, lambda text: f"{text}\n{block.text}")
+            gap = "\n\n" if place.endswith(".py") else "\n"
+            return self.write(place, block, lambda text: f"{text}{gap}{block.text}")
         return self.type_cell(block)
 
     def write(self, place: str, block: Block, change: Callable[[str], str]) -> str:
