@@ -157,9 +157,10 @@ def still_right(question, reference, changed):
     kind, form = question.form.kind, question.form
     values = {name: float(value[0]) for name, value in question.samples.items()}
     if kind in ("direction", "orientation", "dh_table"):
-        names = list({*form.symbols, *form.joints})
+        joints = getattr(form, "joints", ())
+        names = list({*form.symbols, *joints})
         rng = np.random.default_rng(0)
-        values |= {name: rng.uniform(-2, 2) for name in form.joints}
+        values |= {name: rng.uniform(-2, 2) for name in joints}
         pair = [
             sympy.Matrix(each.tolist()).subs({name: values[name] for name in names}) for each in (reference, changed)
         ]
