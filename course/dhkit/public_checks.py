@@ -185,11 +185,14 @@ class ForwardOfInverse(PublicCheck, frozen=True, kw_only=True):
         The two links, in metres.
     target : tuple of float, optional
         Where the hand should be, in metres; the first two arguments unless it is given.
+    tolerance : float
+        How far from it the hand may be, in metres; joint angles may be rounded to four decimals.
     """
 
     args: list[Any]
     lengths: tuple[float, float]
     target: tuple[float, float] | None = None
+    tolerance: Tolerance = 1e-3
 
     def fit(self, form: Form) -> None:
         returned = _returned_form(form, "forward_of_inverse")
@@ -208,8 +211,8 @@ class ForwardOfInverse(PublicCheck, frozen=True, kw_only=True):
         (l1, l2), solutions = self.lengths, reals(returned.arranged(result), {}).reshape(-1, 2)
         t1, t12 = solutions[:, 0], solutions.sum(axis=1)
         reached = np.stack([l1 * np.cos(t1) + l2 * np.cos(t12), l1 * np.sin(t1) + l2 * np.sin(t12)], axis=1)
-        near = np.allclose(reached, self.target or self.args[:2], atol=TOLERANCE)
-        return Line(len(solutions) > 0 and near, self.says)
+        misses = np.linalg.norm(reached - np.array(self.target or self.args[:2]), axis=1)
+        return Line(len(solutions) > 0 and bool((misses <= self.tolerance).all()), self.says)
 
 
 CHECKS: dict[str, type[PublicCheck]] = {

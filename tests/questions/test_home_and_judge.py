@@ -171,7 +171,8 @@ OBJECTS = st.recursive(
 )
 
 
-@settings(max_examples=400, deadline=None)
+@pytest.mark.slow
+@settings(max_examples=300, deadline=None)
 @given(st.sampled_from(sorted(FORMS)), OBJECTS)
 def test_home_and_judge_agree_on_any_object(id, answer):
     agree(FORMS[id], wire.encode(answer))
@@ -207,6 +208,7 @@ def said(capsys, question, answer):
     return capsys.readouterr().out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "id", ["planar_2r.table", "planar_2r.model", "planar_2r.T0E", "planar_2r.postures", "planar_2r.centre"]
 )
@@ -274,6 +276,14 @@ def test_no_public_check_fails_on_a_right_function(question, capsys):
         forms["column"] = lambda *args: sympy.Matrix(np.array(plain(*args), dtype=float).tolist())
     for name, form in forms.items():
         assert not failed(capsys, question, form), name
+
+
+@pytest.mark.parametrize("digits", [3, 4, 6])
+@pytest.mark.parametrize("question", [q for q in FUNCTIONS if q.public.public], ids=lambda question: question.id)
+def test_no_public_check_fails_on_a_function_that_rounds_as_the_judge_takes_it(question, digits, capsys):
+    function = question.answer(STUDENT)
+    rounded = lambda *args: np.round(np.array(getattr(found := function(*args), "solutions", found), float), digits)  # noqa: E731
+    assert verdict(question, rounded).note != "right" or not failed(capsys, question, rounded)
 
 
 @pytest.mark.parametrize("question", [q for q in QUESTIONS if q.public.public], ids=lambda question: question.id)
