@@ -13,6 +13,8 @@ from autograder.judge import Evidence, judge
 from autograder.questions import find
 from dhkit import wire
 
+pytestmark = pytest.mark.slow
+
 BYTES = 64 << 20
 ASKED = (
     "planar_2r.table",

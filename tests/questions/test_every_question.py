@@ -92,6 +92,7 @@ def test_the_scara_in_other_frames(rows, note, words):
     assert found.note == note and words in found.feedback
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("question", DATA, ids=ids(DATA))
 def test_two_mistakes_at_once_are_named(question):
     for first, second in permutations(question.mistakes, 2):
@@ -132,6 +133,7 @@ def test_nothing_is_not_an_answer(question):
     assert (verdict(question, blank).note, verdict(question, blank).share) == ("not_attempted", 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("question", [q for q in DATA if q.form.kind != "choice"], ids=lambda q: q.id)
 def test_perturbed_answers_are_refused(question):
     """As many as it takes to reach most entries of a table or a matrix in most ways, and all of anything smaller."""
@@ -144,6 +146,7 @@ def test_perturbed_answers_are_refused(question):
         assert verdict(question, answer).share < 1, answer
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("question", FUNCTIONS, ids=ids(FUNCTIONS))
 def test_perturbed_functions_are_refused(question):
     """A result of one single argument list is changed: the function is not right, whatever else it gets right."""

@@ -20,6 +20,8 @@ from autograder.questions import exercises
 from dhkit import check, wire
 from dhkit.public_checks import Returns, ValueAt
 
+pytestmark = pytest.mark.slow
+
 QUESTIONS = [question for questions in exercises().values() for question in questions]
 DATA = [question for question in QUESTIONS if question.form.kind != "function"]
 FUNCTIONS = [question for question in QUESTIONS if question.form.kind == "function"]

@@ -153,6 +153,7 @@ def test_soundness_and_recovery_on_random_poses(name):
     assert gaps.max() < 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SOLVABLE)
 def test_soundness_and_recovery_at_round_angles(name):
     robot = SOLVABLE[name]
@@ -209,6 +210,7 @@ def least_squares_search(robot, T, starts, seed, rounds=60):
     return np.concatenate(found_q), np.concatenate(found_pose)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SOLVABLE)
 def test_completeness_against_a_numeric_search(name):
     robot = SOLVABLE[name]
@@ -242,6 +244,7 @@ def test_poses_out_of_reach_are_refused_with_a_reason(name):
     assert f"{answer.excess:.3g}" in answer.reason and answer.labels == ()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SOLVABLE)
 def test_nearest_is_the_nearest_of_all_solutions(name):
     robot = SOLVABLE[name]

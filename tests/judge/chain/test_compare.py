@@ -460,9 +460,10 @@ def made(changes, start):
 
 
 ROBOTS = robots.names()
-COUNT = 500
+COUNT = 200
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ROBOTS)
 def test_gauge_changes_are_recognised(name):
     rng = np.random.default_rng(ROBOTS.index(name))
@@ -496,6 +497,7 @@ def single_cell_change(table, rng):
             return replace(table, cells=cells)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ROBOTS)
 def test_single_cell_changes_are_rejected_unless_the_chain_is_the_same(name):
     rng = np.random.default_rng(100 + ROBOTS.index(name))
@@ -518,6 +520,7 @@ def test_single_cell_changes_are_rejected_unless_the_chain_is_the_same(name):
     assert rejected
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ROBOTS)
 def test_with_the_model_pinned_the_tables_of_one_model_are_equal_and_no_others(name):
     rng = np.random.default_rng(200 + ROBOTS.index(name))
@@ -543,6 +546,7 @@ def test_with_the_model_pinned_the_tables_of_one_model_are_equal_and_no_others(n
     assert seen == {True, False}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ROBOTS)
 def test_the_oracle_finds_gauge_changes(name):
     """A control: where the chain is the same, the fit that confirms rejections finds it."""
