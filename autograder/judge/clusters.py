@@ -1,6 +1,6 @@
 """Wrong answers that no misconception explains, put together where they say the same: the next ones to name.
 
-What students handed in outlives grading as text, `keep`; it is decoded again as strictly as the first time, `kept`.
+What students handed in outlives grading as text, `keep`; it is decoded again as strictly as the first time, `recall`.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def keep(question: str, packet: object) -> str | None:
     return text if len(text) <= MAX_KEPT and not isinstance(answer.value, Function) else None
 
 
-def kept(question: str, text: object) -> Decoded | None:
+def recall(question: str, text: object) -> Decoded | None:
     """The answer inside a text made by `keep`; None if it is anything else."""
     if not isinstance(text, str) or len(text) > MAX_KEPT:
         return None
@@ -59,14 +59,14 @@ class Attempt:
 
     Attributes
     ----------
-    said : str
+    feedback : str
         What the judge said about it.
     answer, right : decoded answer or None
         What was handed in, if it was kept, and what would have been right for this student.
     """
 
     student: str
-    said: str
+    feedback: str
     answer: Decoded | None = None
     right: Decoded | None = None
 
@@ -91,8 +91,8 @@ class Cluster:
         return len(self.attempts)
 
     @property
-    def said(self) -> str:
-        return self.attempts[0].said
+    def feedback(self) -> str:
+        return self.attempts[0].feedback
 
     @property
     def students(self) -> tuple[str, ...]:
@@ -112,17 +112,17 @@ def cluster(question: Question, attempts: Iterable[Attempt]) -> tuple[Cluster, .
     words: dict[str, list[int]] = {}
     for i, form in enumerate(forms):
         if form is None:
-            words.setdefault(_MEASURE.sub("...", attempts[i].said), []).append(i)
+            words.setdefault(_MEASURE.sub("...", attempts[i].feedback), []).append(i)
             continue
-        for heap in alike:
-            first = forms[heap[0]]
-            if attempts[heap[0]].answer == attempts[i].answer or (first is not None and form.equals(first)):
-                heap.append(i)
+        for group in alike:
+            first = forms[group[0]]
+            if attempts[group[0]].answer == attempts[i].answer or (first is not None and form.equals(first)):
+                group.append(i)
                 break
         else:
             alike.append([i])
-    heaps = [(heap, True) for heap in alike] + [(heap, False) for heap in words.values()]
-    found = [Cluster(tuple(attempts[i] for i in heap), by_value) for heap, by_value in heaps]
+    groups = [(group, True) for group in alike] + [(group, False) for group in words.values()]
+    found = [Cluster(tuple(attempts[i] for i in group), by_value) for group, by_value in groups]
     return tuple(sorted(found, key=lambda cluster: -cluster.size))
 
 

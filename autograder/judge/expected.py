@@ -13,7 +13,7 @@ from dhkit.forms import Form
 
 from .decode import Decoded, Malformed, decode
 from .kinds import read
-from .question import Family, Question, Step, Way, take
+from .question import Answer, Family, Question, Step, Way, take
 from .tree import IMPOSSIBLE
 
 # Results of one function that are remembered: more than any question has argument lists.
@@ -81,7 +81,7 @@ def _read(question: Question, sent: str) -> object:
 
 
 @lru_cache(maxsize=1024)
-def _reference(question: Question, ways: tuple[Way, ...], student: str | None) -> object:
+def _reference(question: Question, ways: tuple[Way, ...], student: str | None) -> Answer:
     """The question's own answer before any step; steps make new ones of it and leave it as it is."""
     wrong = {name: value for way in ways for name, value in (way.wrong or {}).items()}
     answer = question.compute(student or "", wrong)
@@ -93,11 +93,11 @@ def _split(ways: tuple[Way, ...]) -> tuple[tuple[Way, ...], list[Step]]:
     return tuple(way for way in ways if way.step is None), [way.step for way in ways if way.step is not None]
 
 
-def _list(answer: object) -> object:
+def _list(answer: Answer) -> Answer:
     return answer.solutions if isinstance(answer, Family) else answer
 
 
-def _take_any(steps: list[Step], answer: object) -> list[object]:
+def _take_any(steps: list[Step], answer: Answer) -> list[Answer]:
     """The answer after the steps; of a family, after the steps on each choice of its representatives."""
     if not isinstance(answer, Family):
         return [take(steps, answer)]

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import sympy
@@ -397,7 +398,8 @@ def angle_not_summed(*wrong, **other) -> Mistake:
     )
 
 
-def _each_and_all_atan2(answer: sympy.Expr, change: Callable, which: int | None) -> sympy.Expr:
+def _change_atan2(answer: sympy.Expr, change: Callable, which: int | None) -> sympy.Expr:
+    """The answer with one atan2 of it changed, or all of them."""
     answer = sympy.sympify(answer)
     calls = sorted(answer.atoms(sympy.atan2), key=sympy.default_sort_key)
     if which is not None:
@@ -431,9 +433,8 @@ def atan2_arguments_exchanged(count: int = 1, **other) -> Mistake:
 
 
 def _on_atan2(note: str, share: float, feedback: str, change: Callable, count: int, /, **other) -> Mistake:
-    steps = [lambda answer, which=which: _each_and_all_atan2(answer, change, which) for which in range(count)]
-    if count > 1:
-        steps.insert(0, lambda answer: _each_and_all_atan2(answer, change, None))
+    places = range(count) if count == 1 else (None, *range(count))
+    steps = (partial(_change_atan2, change=change, which=which) for which in places)
     return _entry(note, share, feedback, *steps, **other)
 
 

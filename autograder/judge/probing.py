@@ -22,8 +22,9 @@ def judge_results(question: Question, arguments: list[list], results: Sequence[D
     """
     form = question.returns
     found = [read_result(form, result) for result in results]
-    if all(isinstance(result, Malformed) for result in found):
-        raise found[0]
+    complaints = [result for result in found if isinstance(result, Malformed)]
+    if len(complaints) == len(found):
+        raise complaints[0]
     calls = list(zip(arguments, found, strict=True))
 
     def compare(ways: tuple[Way, ...], turn: float, args: list, result: object) -> Comparison:

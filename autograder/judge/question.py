@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from inspect import Parameter, signature
 from itertools import chain
+from typing import Any
 
 import numpy as np
 import sympy
@@ -21,7 +22,10 @@ from .chain import SAME_MODEL
 from .kinds import Setting
 
 Draw = Callable[[np.random.Generator], dict[str, float]]
-Step = Callable[[object], object]
+Answer = Any
+"""Anything `dhkit.wire.encode` takes, or a `Family`; a function for a question that is probed."""
+
+Step = Callable[[Answer], Answer]
 Wrong = Mapping[str, object]
 
 
@@ -120,7 +124,7 @@ class Question:
     ----------
     id : str
         ``"<exercise>.<name>"``, as in the public half.
-    reference : object
+    reference : answer or callable
         The right answer: anything `dhkit.wire.encode` takes, or a `Family`. Where it depends on the student's own
         numbers, or where mistakes are made on the way to it, a function that returns it: its parameter ``mine`` holds
         the student's numbers (``mine.L1``), each other one is a keyword that makes one thing wrong, and whose default
@@ -151,7 +155,7 @@ class Question:
     """
 
     id: str
-    reference: object
+    reference: Answer
     mistakes: tuple[Mistake, ...] = ()
     partial: float = 0.5
     angles: tuple[int, ...] = ()
@@ -199,7 +203,7 @@ class Question:
         """The student's own numbers for the exercise. `student` is the id in the gradebook, never the one in the notebook."""
         return OwnNumbers(numbers(self.exercise, student))
 
-    def answer(self, student: str, *ways: Way) -> object:
+    def answer(self, student: str, *ways: Way) -> Answer:
         """The right answer for a student; with `ways`, the one of somebody who makes these mistakes, in this order.
 
         A function for a probed question.
@@ -211,7 +215,7 @@ class Question:
             return lambda *args: take(steps, made(*args))
         return take(steps, made)
 
-    def compute(self, student: str, wrong: Wrong) -> object:
+    def compute(self, student: str, wrong: Wrong) -> Answer:
         """What the reference gives for a student when it goes wrong as told."""
         if not _is_function(self.reference):
             return self.reference
@@ -242,7 +246,7 @@ class Question:
         return Setting(self.samples, self.angles, self.tolerance, self.pinned, residual=residual)
 
 
-def take(steps: Sequence[Step], answer: object) -> object:
+def take(steps: Sequence[Step], answer: Answer) -> Answer:
     """The answer after some steps, the first one first; of a family they take all representatives."""
     if steps and isinstance(answer, Family):
         answer = answer.solutions
@@ -251,12 +255,12 @@ def take(steps: Sequence[Step], answer: object) -> object:
     return answer
 
 
-def _is_function(reference: object) -> bool:
+def _is_function(reference: Answer) -> bool:
     """SymPy's symbols can be called too, but they are values."""
     return callable(reference) and not isinstance(reference, sympy.Basic)
 
 
-def _keywords(reference: object) -> set[str]:
+def _keywords(reference: Answer) -> set[str]:
     """The names of the things that a reference can be told to do wrong."""
     known = _parameters(reference) if _is_function(reference) else {}
     return {name for name, one in known.items() if one.default is not Parameter.empty and name != "mine"}

@@ -58,9 +58,9 @@ def walk(question: Question, student: str, against_reference: Comparison, matche
         first, second = (question.mistakes[place] for place in pair)
         turn = max(first.turn, second.turn)
         ways = product(first.ways, second.ways)
-        if pair[0] > pair[1]:  # The other order was tried already; it makes a difference for two steps only.
-            ways = (both for both in ways if all(way.step for way in both))
-        if any(_is_match(matches, both, turn) for both in ways):
+        # The other order was tried already if the second stands first in the tree; it makes a difference for two steps only.
+        new = (both for both in ways if pair[0] < pair[1] or all(way.step for way in both))
+        if any(_is_match(matches, both, turn) for both in new):
             note = "+".join(sorted((first.note, second.note)))
             feedback = "\n\n".join(_fill_in(node.feedback, numbers) for node in (first, second))
             return Verdict(first.share * second.share, note, feedback)

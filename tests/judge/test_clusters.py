@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from autograder.judge import Question
-from autograder.judge.clusters import MAX_KEPT, Attempt, cluster, is_unexplained, keep, kept, right_answer
+from autograder.judge.clusters import MAX_KEPT, Attempt, cluster, is_unexplained, keep, recall, right_answer
 from autograder.judge.decode import Call, Constant, Number, Symbol, Text, decode_answer
 from autograder.judge.evaluate import evaluate
 from autograder.judge.written import LIMIT, written
@@ -34,7 +34,7 @@ def attempts(question, *answers, said="Not right."):
         Attempt(
             chr(ord("a") + i),
             said,
-            kept(question.id, keep(question.id, wire.packet(question.id, answer=wire.encode(answer)))),
+            recall(question.id, keep(question.id, wire.packet(question.id, answer=wire.encode(answer)))),
         )
         for i, answer in enumerate(answers)
     ]
@@ -143,13 +143,13 @@ def deep(levels):
     "text", [None, 7, ["[]"], "", "1/0", "NaN", deep(100), deep(9_000), deep(MAX_KEPT), "9" * 6000, '{"a":1}']
 )
 def test_a_kept_text_is_not_trusted(text):
-    assert kept("scara.model", text) is None
+    assert recall("scara.model", text) is None
 
 
 def test_what_is_kept_comes_back():
     value = [sympy.sqrt(t1) / 3, 2**80, 0.1, ...]
     text = keep("scara.model", wire.packet("scara.model", answer=wire.encode(value)))
-    assert json.loads(text)["question"] == "scara.model" and kept("scara.model", text) == decoded(value)
+    assert json.loads(text)["question"] == "scara.model" and recall("scara.model", text) == decoded(value)
 
 
 @pytest.mark.parametrize(

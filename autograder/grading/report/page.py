@@ -71,7 +71,14 @@ def tables(report: ClassReport) -> dict[str, list[Sequence]]:
             answer = cluster.attempts[0].answer
             text = "" if answer is None else written(answer.value).replace("\n", " ")
             answers.append(
-                (question.question, cluster.size, "answer" if cluster.alike else "words", students, cluster.said, text)
+                (
+                    question.question,
+                    cluster.size,
+                    "answer" if cluster.alike else "words",
+                    students,
+                    cluster.feedback,
+                    text,
+                )
             )
     return {"questions.csv": questions, "notes.csv": notes, "answers.csv": answers}
 

@@ -14,7 +14,7 @@ from nbgrader.api import Gradebook, MissingEntry
 
 from autograder import questions
 from autograder.judge import Question
-from autograder.judge.clusters import Attempt, Cluster, cluster, is_unexplained, kept, right_answer
+from autograder.judge.clusters import Attempt, Cluster, cluster, is_unexplained, recall, right_answer
 from autograder.judge.decode import Decoded
 from dhkit.public import questions as public_questions
 
@@ -217,13 +217,13 @@ def _attempts(course: Course, exercise: str, rows: dict[str, dict[str, tuple[flo
         for name in sorted(wanted & checks.keys()):
             question, cell = _question(name), checks[name]
             record = check_record(cell)
-            answer = kept(question_id(name), record and record.answer)
+            answer = recall(question_id(name), record and record.answer)
             right = right_answer(question, student) if question else None
-            found.setdefault(name, []).append(Attempt(student, _said(cell.outputs), answer, right))
+            found.setdefault(name, []).append(Attempt(student, _feedback(cell.outputs), answer, right))
     return found
 
 
-def _said(outputs: Iterable[NotebookNode]) -> str:
+def _feedback(outputs: Iterable[NotebookNode]) -> str:
     """What the judge said on a check cell, without Markdown."""
     feedback = next(
         (output.data.get("text/plain", "") for output in outputs if output.output_type == "display_data"), ""
