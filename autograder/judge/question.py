@@ -168,7 +168,13 @@ class Question:
     follows: Follow | None = None
 
     def __post_init__(self) -> None:
-        known = _keywords(self.reference)
+        parameters = _parameters(self.reference) if _is_function(self.reference) else {}
+        known = {name for name, one in parameters.items() if one.default is not Parameter.empty and name != "mine"}
+        needed = [name for name, one in parameters.items() if name != "mine" and name not in known]
+        if needed and self.probe is None:
+            raise ValueError(
+                f"{self.id}: the reference takes {', '.join(needed)}, but is given the student's numbers alone, as mine"
+            )
         for node in self.mistakes:
             unknown = set(chain.from_iterable(node.wrong)) - known
             if unknown:
@@ -258,12 +264,6 @@ def take(steps: Sequence[Step], answer: Answer) -> Answer:
 def _is_function(reference: Answer) -> bool:
     """SymPy's symbols can be called too, but they are values."""
     return callable(reference) and not isinstance(reference, sympy.Basic)
-
-
-def _keywords(reference: Answer) -> set[str]:
-    """The names of the things that a reference can be told to do wrong."""
-    known = _parameters(reference) if _is_function(reference) else {}
-    return {name for name, one in known.items() if one.default is not Parameter.empty and name != "mine"}
 
 
 def _parameters(function: Callable) -> Mapping[str, Parameter]:

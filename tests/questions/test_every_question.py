@@ -193,6 +193,12 @@ def test_both_halves_ask_the_same_questions():
     assert {question.id for question in QUESTIONS} == set(public.questions())
 
 
+def test_what_several_exercises_share_is_no_exercise():
+    assert "shared" not in exercises()
+    with pytest.raises(KeyError, match="there is no question 'shared.tables'"):
+        find("shared.tables")
+
+
 def test_an_unknown_question_names_what_exists():
     with pytest.raises(KeyError, match="scara.T04"):
         find("scara.T40")
