@@ -8,10 +8,11 @@ from pathlib import Path
 
 import nbformat
 import pytest
+from nbclient import NotebookClient
 
 from autograder.judge import misconceptions
 from autograder.questions import exercises
-from autograder.reference import parallel, robots
+from autograder.reference import errata, parallel, robots
 from dhkit.forms import KINDS
 from dhkit.public import questions
 
@@ -80,3 +81,17 @@ def test_every_lecture_has_its_exercise_and_stands_in_the_readme():
     table = re.findall(r"^\| `course/(\w+).ipynb` \| (?:`exercises/(\w+)/`|for lecturers) \|", README, re.M)
     assert {lecture for lecture, _ in table} == lectures
     assert all(exercise in ("", lecture.partition("_")[2]) for lecture, exercise in table)
+
+
+@pytest.mark.slow
+@pytest.mark.notebook
+def test_the_errata_lecture_shows_every_erratum_with_its_proof():
+    lecture = nbformat.read(ROOT / "course/13_errata.ipynb", as_version=4)
+    done = NotebookClient(lecture, timeout=120).execute()
+    shown = "\n".join(
+        output.get("data", {}).get("text/html", "") for cell in done.cells for output in cell.get("outputs", ())
+    )
+    known = {erratum.id for erratum in errata.ERRORS + errata.AMBIGUITIES}
+    assert len(known) == 61
+    assert sorted(known) == sorted(re.findall(r"<code>([\w-]+)</code>", shown)), "each once"
+    assert shown.count("<b>proved</b>") == len(known) and "NOT PROVED" not in shown
