@@ -8,7 +8,7 @@ import sympy
 from autograder.judge import mistake
 from autograder.reference import robots
 from autograder.reference.lines import link, link_frame
-from dhkit.geometry import common_normal, link_axis
+from dhkit.geometry import common_normal, link_axis, rotation
 
 from ..shared.tables import list_rows
 
@@ -102,7 +102,7 @@ def find_frame(mine) -> sympy.Matrix:
 def find_gripper(mine, unit=np.pi / 180) -> sympy.Matrix:
     """The frame of the gripper at the shelf, (4, 4); `unit` is that of the yaw angle, in radians."""
     yaw = unit * mine.yaw
-    z, y = np.array([np.cos(yaw), np.sin(yaw), 0]), np.array([0, 0, 1.0])
+    z, y = rotation("z", yaw)[:, 0], np.array([0, 0, 1.0])
     found = np.eye(4)
     found[:3] = np.column_stack([np.cross(y, z), y, z, [0.6, mine.shelf, 0.8]])
     return sympy.Matrix(tidy(found))

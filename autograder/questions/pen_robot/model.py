@@ -10,6 +10,7 @@ import sympy
 from autograder.judge import Family
 from autograder.reference import DHTable, robots
 from dhkit.curves import pen_path
+from dhkit.geometry import rotation, rotation_2d
 
 from ..shared.tables import list_rows
 
@@ -55,7 +56,7 @@ def draw_surface(rng: np.random.Generator) -> dict[str, float]:
     sizes = dict(zip(LENGTHS, rng.uniform([0.2, 0.3, 0.05, 0.05, 0.1], [0.4, 0.5, 0.2, 0.2, 0.25])))
     q1, angle = rng.uniform(-np.pi, np.pi, 2)
     rho, side = sizes["L1"] + sizes["p1"] * np.sin(angle), sizes["h2"] + sizes["L2"]
-    sizes |= {"x": rho * np.cos(q1) - side * np.sin(q1), "y": rho * np.sin(q1) + side * np.cos(q1)}
+    sizes |= dict(zip(("x", "y"), rotation_2d(q1) @ [rho, side]))
     return {name: sizes[name] for name in ("x", "y", "L1", "h2", "L2", "p1")}
 
 
@@ -123,12 +124,7 @@ def draw_places(rng: np.random.Generator) -> list[list[float]]:
 
 def _point(turn, angle, sizes):
     height, out, side, pen = sizes
-    ahead = out + pen * np.sin(angle)
-    return (
-        ahead * np.cos(turn) - side * np.sin(turn),
-        ahead * np.sin(turn) + side * np.cos(turn),
-        height + pen * np.cos(angle),
-    )
+    return rotation("z", turn) @ [out + pen * np.sin(angle), side, height + pen * np.cos(angle)]
 
 
 def name_place(px, py, pz, h1, L1, H, p1) -> str:

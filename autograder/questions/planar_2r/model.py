@@ -9,6 +9,7 @@ import sympy
 
 from autograder.judge.misconceptions import symbols_exchanged
 from autograder.reference import DHRow, robots
+from dhkit.geometry import planar_joints
 
 from ..shared import two_link
 from ..shared.tables import list_rows
@@ -102,5 +103,4 @@ def name_case(px, py, l1, l2) -> str:
 def residual(q, *target, mine) -> np.ndarray:
     """Distance of the hand from the target, (k,), for joint values (k, 2); without a target, from the student's."""
     px, py, l1, l2 = target or (mine.x, mine.y, mine.L1, mine.L2)
-    t1, t12 = q[:, 0], q.sum(axis=1)
-    return np.hypot(l1 * np.cos(t1) + l2 * np.cos(t12) - px, l1 * np.sin(t1) + l2 * np.sin(t12) - py)
+    return np.linalg.norm(planar_joints([l1, l2], q)[:, -1] - (px, py), axis=1)

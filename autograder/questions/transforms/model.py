@@ -9,6 +9,7 @@ import sympy
 
 from autograder.reference import DHTable
 from autograder.reference.transforms import classic_dh, modified_dh, modified_dh_inverse, rot_x, rot_z, trans_x, trans_z
+from dhkit.geometry import rotation_2d
 
 from ..shared.tables import list_rows
 
@@ -27,7 +28,7 @@ def see_from_a(mine, shift=1.0, turn=1.0, unit=np.pi / 180, shift_turned=False) 
     with `shift_turned` the way is taken along the axes of B.
     """
     angle = turn * unit * mine.phi
-    rotation = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    rotation = rotation_2d(angle)
     way = shift * np.array([mine.tx, mine.ty])
     point = np.array([mine.px, mine.py])
     return (rotation @ (point + way) if shift_turned else rotation @ point + way).tolist()

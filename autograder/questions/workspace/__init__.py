@@ -13,6 +13,7 @@ from autograder.judge.misconceptions import (
     symbols_exchanged,
 )
 from autograder.judge.steps import substitute
+from dhkit.geometry import lies_between
 
 from .model import (
     ABSOLUTE_POINT,
@@ -31,7 +32,6 @@ from .model import (
     draw_ranges,
     full_turn_area,
     hold_as_they_come,
-    holds,
     name_place,
     name_range,
     never,
@@ -231,7 +231,7 @@ QUESTIONS = (
                 "only_the_elbow_has_stops",
                 0.5,
                 "**Only the stop of joint 2 is looked at.** Each posture needs a theta1 that joint 1 can take.",
-                wrong={"allowed": lambda q, limits: holds(q[1], *limits[1])},
+                wrong={"allowed": lambda q, limits: lies_between(q[1], *limits[1])},
             ),
             mistake(
                 "one_posture_missing",

@@ -12,7 +12,7 @@ from autograder.reference import robots
 from autograder.reference.equations import type8
 from autograder.reference.singularities import two_link_determinant
 from autograder.reference.workspace import RRArm, planar_points, rr_grid
-from dhkit.geometry import unit_vector
+from dhkit.geometry import lies_between, unit_vector
 
 t1, t2, t3, L1, L2 = sympy.symbols("t1 t2 t3 L1 L2")
 t1i, t1j, t2i, t2j = sympy.symbols("t1i t1j t2i t2j")
@@ -92,17 +92,12 @@ def full_turn_area(mine, how="ring") -> float:
 # ---------------------------------------------------------------- limits of reach
 
 
-def holds(angle, low, high) -> bool:
-    """Whether a range holds an angle, modulo full turns."""
-    return np.mod(angle - low, 2 * np.pi) <= high - low
-
-
 def holds_zero(low, high) -> bool:
-    return holds(0, low, high)
+    return lies_between(0, low, high)
 
 
 def holds_pi(low, high) -> bool:
-    return holds(np.pi, low, high)
+    return lies_between(np.pi, low, high)
 
 
 def reach(l1, l2, low, high, *, stretched=holds_zero, folded=holds_pi) -> list[float]:
@@ -161,7 +156,7 @@ def _postures(x, y, l1, l2):
 
 
 def hold_modulo_turns(q, limits) -> bool:
-    return all(holds(angle, *row) for angle, row in zip(q, limits))
+    return all(lies_between(angle, *row) for angle, row in zip(q, limits))
 
 
 def hold_as_they_come(q, limits) -> bool:
