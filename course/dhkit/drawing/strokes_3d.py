@@ -84,10 +84,10 @@ def draw_angle_3d(ax, centre, start, side, radius, sweep, label, away=1.3):
         write_3d(ax, arc_points(centre, away * radius, start, side, sweep / 2), f"${label}$")
 
 
-def draw_target_3d(ax, at, colour=INK, zorder=7.0, width=1.3):
-    """A cross in a circle at a point."""
-    for marker, size in (("o", 13), ("+", 18)):
-        ax.plot(*np.asarray(at, float)[:, None], marker, ms=size, mfc="none", mec=colour, mew=width, zorder=zorder)
+def draw_target_3d(ax, at, colour=INK, zorder=7.0, width=1.3, size=13):
+    """A cross in a circle of `size` points at a point."""
+    for marker, across in (("o", size), ("+", 1.4 * size)):
+        ax.plot(*np.asarray(at, float)[:, None], marker, ms=across, mfc="none", mec=colour, mew=width, zorder=zorder)
 
 
 def draw_prism(ax, outline, low, high, shade=0.85, zorder=1.0):

@@ -43,7 +43,7 @@ def show_tip(tip, values: dict[str, float], *, repaired=False):
         raise ValueError(f"your tip is {np.linalg.norm(at):.3g} m away, far outside the picture")
     q = [values[name] for name in ("t1", "t2", "t3")]
     ax = draw_pen_robot(q, sizes, repaired=repaired, names=False, curve=[at, at])
-    draw_target_3d(ax, at, zorder=8)
+    draw_target_3d(ax, at, zorder=8, size=15)
     write_3d(ax, np.array(at) + (0, 0, -0.05 * sum(sizes.values())), "your result", fontsize=10)
     return ax
 
