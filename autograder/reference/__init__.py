@@ -15,6 +15,8 @@ array([0.5, 0.4])
 | 1 | 0 | $0$ | $0$ | $0$ | $q_{1}$ |
 >>> table.symbolic_forward()[0, 3], table.inverse_transform().shape
 (0.5*cos(q1) + 0.4*cos(q1 + q2), (4, 4))
+>>> table.to_classic().to_modified().rows[1].a
+0.500000000000000
 >>> DHTable.from_classic([(0, 0.5, 0, 0, None), (0, 0.4, 0, 0, None)]).forward([0, np.pi / 2])[:2, 3].round(3)
 array([0.5, 0.4])
 
@@ -54,12 +56,17 @@ them at all.
 ((6, 6), 5)
 >>> mobility(robots.PUMA_PRINTED.table)
 5
+>>> from sympy import symbols
+>>> rx90_determinant(*symbols("a3 d3 t2 t3 t5"))
+-a3*d3*(-a3*cos(t2) + d3*sin(t2 + t3))*sin(t5)*cos(t3)
 
 **Workspace.** Clouds of any robot under joint limits, their cross-section and area; exact areas for two links.
 
 >>> half_turn = workspace.RRArm(0.5, 0.4, q1=(0, np.pi), q2=(0, np.pi / 2))
 >>> round(half_turn.area(), 4), round(half_turn.sheet_area(), 4), bool(half_turn.contains([0.0, 0.8]))
 (0.6283, 0.6283, True)
+>>> [round(radius, 4) for radius in half_turn.radii()]
+[0.6403, 0.9]
 >>> [len(curve) > 1 for curve in half_turn.boundary(step=0.1)]
 [True, True, True, True]
 >>> workspace.grid(robots.PLANAR_2R, [[-1, 1], [0, 2]], (3, 5)).shape
@@ -73,6 +80,8 @@ them at all.
 
 >>> equations.type2(1.0, 1.0, 1.0).values.round(4)
 array([1.5708, 0.    ])
+>>> equations.type7(0.3, 0.4, 0.5, 0.0, 0.2, 0.1).count
+array(2)
 >>> str(equations.type8(0.5, 0.4, 0.9, 0.0).status)
 'boundary'
 
@@ -85,8 +94,8 @@ array([1.5708, 0.    ])
 **Parallel robots.** `ThreeRPR` and `ThreeRRR`: the same two words, `forward` and `inverse`.
 
 >>> legs = robots.THREE_RPR.inverse([0.5, 0.4, 0.1])
->>> int(robots.THREE_RPR.forward(legs).count)
-2
+>>> int(robots.THREE_RPR.forward(legs).count), robots.THREE_RPR.polynomial(legs).shape
+(2, (7,))
 """
 
 from . import catalogue as robots
@@ -94,7 +103,7 @@ from . import equations, orientation, workspace
 from .catalogue import Robot
 from .centres import epfl_centres, rotation_about, scara_centres
 from .parallel import ThreeRPR, ThreeRRR
-from .singularities import jacobian, mobility, rank
+from .singularities import jacobian, mobility, rank, rx90_determinant, scara_determinant, two_link_determinant
 from .solutions import Batch, Nearest, Solutions
 from .status import Failure, Flag, Status
 from .tables import ClassicTable, DHRow, DHTable
@@ -122,7 +131,10 @@ __all__ = [
     "rank",
     "robots",
     "rotation_about",
+    "rx90_determinant",
     "scara_centres",
+    "scara_determinant",
     "table_from_urdf",
+    "two_link_determinant",
     "workspace",
 ]
