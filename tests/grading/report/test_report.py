@@ -130,10 +130,10 @@ def test_equivalent_wrong_answers_stand_together(report):
         (("dot",), True),
         ((HOSTILE,), False),
     ]
-    assert "Cell (1, 4) differs" in first.clusters[0].said and "**" not in first.clusters[0].said
-    assert written(first.clusters[0].attempts[0].answer).splitlines()[0].endswith("a2*cos(t1) - a3*cos(t1 + t2)]")
+    assert "Cell (1, 4) differs" in first.clusters[0].feedback and "**" not in first.clusters[0].feedback
+    assert written(first.clusters[0].attempts[0].answer.value).splitlines()[0].endswith("a2*cos(t1) - a3*cos(t1 + t2)]")
     assert [cluster.students for cluster in second.clusters] == [(HOSTILE, "cem", "dot"), ("fay",)]
-    assert written(second.right) == '"B"' and third.right is None and not third.clusters
+    assert written(second.right.value) == '"B"' and third.right is None and not third.clusters
 
 
 def test_only_unexplained_answers_stay_in_the_graded_notebook(course):
