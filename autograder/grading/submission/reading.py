@@ -7,11 +7,13 @@ cell types, sources, attached pictures and the nbgrader ids that the student's c
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import json
 import os
 import re
 import threading
+from dataclasses import replace
 from pathlib import Path
 
 from nbformat.notebooknode import NotebookNode
@@ -20,15 +22,20 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_raw_
 from autograder import sandbox
 from autograder.sandbox import plain_files
 
-from ..cells import NotebookRecord, write_record
+from ..cells import NotebookRecord, notebook_record, write_record
+from .slim import TooManyTokens, cut
 
+MAX_FILE = 100 << 20
 MAX_BYTES = 10 << 20
+"""Of a file, and of what is left of it without outputs."""
+MAX_TOKENS = 5_000_000
 MAX_CELLS = 1000
 MAX_SOURCE = 500_000
-MAX_FOLDER_BYTES = 64 << 20
 
 _NEW = {"code": new_code_cell, "markdown": new_markdown_cell, "raw": new_raw_cell}
 _PICTURE = re.compile(r"[A-Za-z0-9+/=\s]*\Z")
+# Trouble with a file that its author can have caused: there is none, or it is a link, a pipe or a socket.
+_AUTHORS_FAULT = {errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.ENXIO, errno.ENAMETOOLONG}
 # Ten megabytes of "[],[],..." become a quarter of a gigabyte of objects: one file is parsed at a time.
 _parsing = threading.Lock()
 
@@ -38,24 +45,52 @@ class Unreadable(ValueError):
 
 
 def read_submission(path: Path) -> NotebookNode:
-    """The notebook at `path`, reduced to what grading needs (see above); `Unreadable` otherwise."""
+    """The notebook at `path`, reduced to what grading needs (see above).
+
+    Raises
+    ------
+    Unreadable
+        If its author handed in something else.
+    OSError
+        If this machine cannot read it.
+    """
     if not path.exists() and not path.is_symlink():
         raise Unreadable(_missing(path))
     for place in (path, path.parent, path.parent.parent):
         if place.is_symlink():
             raise Unreadable(f"{place.name} is a link, not a file of its own")
     with _parsing:
-        return _notebook(_parse(plain_bytes(path, MAX_BYTES)))
+        return _trimmed(plain_bytes(path, MAX_FILE))
 
 
 def plain_bytes(path: Path, limit: int) -> bytes:
-    """Content of a regular file of at most `limit` bytes; anything else is `Unreadable`."""
+    """Content of a regular file of at most `limit` bytes; anything else is `Unreadable`, trouble of the machine `OSError`."""
     try:
         return sandbox.plain_bytes(path, limit)
     except sandbox.TooLarge as reason:
         raise Unreadable(f"{reason}; clear its outputs and hand it in again") from None
     except sandbox.NotPlain as reason:
+        cause = reason.__context__
+        if isinstance(cause, OSError) and cause.errno not in _AUTHORS_FAULT:
+            raise OSError(cause.errno, cause.strerror, str(path)) from None
         raise Unreadable(str(reason)) from None
+
+
+def _trimmed(content: bytes) -> NotebookNode:
+    """The notebook in a file, its outputs left aside, and its pictures too if they are too large."""
+    try:
+        content = cut(content, b"outputs", MAX_TOKENS)
+        if (size := len(content)) <= MAX_BYTES:
+            return _notebook(_parse(content))
+        content = cut(content, b"attachments", MAX_TOKENS)
+    except TooManyTokens as reason:
+        raise Unreadable(f"the file holds {reason}; clear its outputs and hand it in again") from None
+    if len(content) > MAX_BYTES:
+        raise Unreadable(f"the file is larger than {MAX_BYTES >> 20} MiB, without its outputs")
+    nb = _notebook(_parse(content))
+    remark = f"its pasted pictures hold {size >> 20} MiB, more than {MAX_BYTES >> 20}, and were left out"
+    write_record(nb, replace(notebook_record(nb), repairs=(remark,)))
+    return nb
 
 
 def fingerprint(folder: Path, released: bytes) -> str:
@@ -64,7 +99,7 @@ def fingerprint(folder: Path, released: bytes) -> str:
     for path in plain_files(folder):
         digest.update(os.fsencode(path.relative_to(folder)) + b"\0")
         with path.open("rb") as file:
-            left = MAX_FOLDER_BYTES
+            left = MAX_FILE
             while left > 0 and (block := file.read(min(left, 1 << 20))):
                 digest.update(block)
                 left -= len(block)
@@ -83,19 +118,18 @@ def _parse(content: bytes) -> object:
     if not content.strip():
         raise Unreadable("the file is empty")
     try:
-        return json.loads(content.decode("utf-8-sig"), parse_constant=_no_constant)
+        return json.loads(content.decode("utf-8-sig"), parse_constant=lambda name: None, parse_int=_whole_number)
     except UnicodeDecodeError:
         raise Unreadable("the file is not UTF-8 text") from None
     except json.JSONDecodeError as error:
         raise Unreadable(f"the file is not valid JSON (line {error.lineno}); it may have been cut off") from None
     except RecursionError:
         raise Unreadable("the file is nested far too deeply for a notebook") from None
-    except ValueError:
-        raise Unreadable("the file holds a number that no notebook holds") from None
 
 
-def _no_constant(name: str) -> None:
-    raise ValueError(name)
+def _whole_number(text: str) -> int | None:
+    """A number, unless it has more digits than any that is read here."""
+    return int(text) if len(text) < 20 else None
 
 
 def _notebook(content: object) -> NotebookNode:

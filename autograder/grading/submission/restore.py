@@ -60,7 +60,7 @@ def restore(submitted: NotebookNode, released: NotebookNode) -> NotebookNode:
     if len(repairs) > MAX_REPAIRS:
         repairs[MAX_REPAIRS - 1 :] = [f"and {len(repairs) - MAX_REPAIRS + 1} more of this kind"]
     nb = new_notebook(cells=cells, metadata=deepcopy(released.metadata))
-    write_record(nb, replace(record, repairs=tuple(repairs)))
+    write_record(nb, replace(record, repairs=(*record.repairs, *repairs)))
     return nb
 
 

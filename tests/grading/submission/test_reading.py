@@ -1,5 +1,6 @@
 """What cannot be read is refused in words, bounded, and never through a link."""
 
+import errno
 import json
 import os
 
@@ -9,6 +10,7 @@ import pytest
 from autograder.grading.cells import NotebookRecord, notebook_record
 from autograder.grading.submission import reading
 from autograder.grading.submission.reading import Unreadable, fingerprint, plain_files, read_submission
+from autograder.grading.submission.restore import restore
 
 
 def notebook(*cells, **more):
@@ -49,8 +51,6 @@ BROKEN = {
     "too many cells": (json.dumps(notebook(*[code("")] * 1001)).encode(), "more than 1000 cells"),
     "deep": (b"[" * 100_000 + b"]" * 100_000, "nested"),
     "deep inside": (json.dumps(notebook()).replace("{}", '{"a":' * 50_000 + "1" + "}" * 50_000).encode(), "nested"),
-    "endless integer": (json.dumps(notebook()).replace("{}", "9" * 5000).encode(), "number"),
-    "NaN": (json.dumps(notebook()).replace("{}", "NaN").encode(), "number"),
 }
 
 
@@ -63,8 +63,67 @@ def test_broken_files_are_refused_in_words(path, content, words):
 
 def test_a_huge_file_is_not_read(path):
     with path.open("wb") as file:
-        file.truncate(reading.MAX_BYTES + 1)
-    with pytest.raises(Unreadable, match="larger than 10 MiB"):
+        file.truncate(reading.MAX_FILE + 1)
+    with pytest.raises(Unreadable, match="larger than 100 MiB"):
+        read_submission(path)
+
+
+PICTURE = "QUJD" * (3 << 20)
+NEVER_READ = {
+    "NaN": ("[", '{"data": {"application/json": [NaN, -Infinity]}}', "]"),
+    "an endless number": ("[", "9" * 5000, "]"),
+    "12 MiB of pictures": ("[", json.dumps({"data": {"image/png": PICTURE}}), "]"),
+    "depth": ("[" * 100_000, "", "]" * 100_000),
+    "brackets in texts": ("[", r'"[[[{\"]]"', "]"),
+    "no JSON": ("[", "<<>> ,,", "]"),
+    "an object": ("{", '"outputs": [1, {"cells": []}]', "}"),
+}
+
+
+@pytest.mark.parametrize("outputs", NEVER_READ.values(), ids=NEVER_READ)
+def test_outputs_are_never_read(path, outputs):
+    """Whatever a cell displayed at home, its source is what counts."""
+    text = json.dumps(notebook(code("x = 1"), {**code("y = 2"), "outputs": "HERE"}, code('"outputs": ["')))
+    path.write_text(text.replace('"HERE"', "".join(outputs)))
+    assert [cell.source for cell in read_submission(path).cells] == ["x = 1", "y = 2", '"outputs": ["']
+
+
+@pytest.mark.parametrize("number", ["NaN", "-Infinity", "9" * 5000, "1e999"])
+def test_a_number_that_is_never_read_does_no_harm(path, number):
+    path.write_text(json.dumps({**notebook(code("x")), "metadata": {"a": "HERE"}}).replace('"HERE"', number))
+    assert [cell.source for cell in read_submission(path).cells] == ["x"]
+
+
+def test_more_brackets_than_any_notebook_has_are_refused(path, monkeypatch):
+    monkeypatch.setattr(reading, "MAX_TOKENS", 1000)
+    path.write_text(json.dumps(notebook({**code("x"), "outputs": [[]] * 1000})))
+    with pytest.raises(Unreadable, match="more than 1,000 brackets and texts; clear its outputs"):
+        read_submission(path)
+
+
+def test_pictures_that_are_too_large_are_left_out_and_said(path, released):
+    text = {"cell_type": "markdown", "metadata": {}, "source": "![](attachment:a.png)"}
+    path.write_text(json.dumps(notebook(code("x"), {**text, "attachments": {"a.png": {"image/png": PICTURE}}})))
+    nb = read_submission(path)
+    assert [cell.source for cell in nb.cells] == ["x", "![](attachment:a.png)"]
+    assert notebook_record(restore(nb, released)).repairs[0].startswith("its pasted pictures hold 12 MiB")
+
+
+def test_a_folder_in_the_notebooks_place_is_refused(path):
+    path.mkdir()
+    with pytest.raises(Unreadable, match="not a regular file"):
+        read_submission(path)
+
+
+@pytest.mark.parametrize("fault", [errno.EACCES, errno.EIO, errno.EMFILE])
+def test_trouble_of_the_machine_is_not_the_students(path, monkeypatch, fault):
+    path.write_text(json.dumps(notebook(code("x"))))
+
+    def refuse(*arguments):
+        raise OSError(fault, os.strerror(fault))
+
+    monkeypatch.setattr(os, "open", refuse)
+    with pytest.raises(OSError, match="scara.ipynb"):
         read_submission(path)
 
 
