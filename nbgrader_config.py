@@ -16,7 +16,6 @@ c.CourseDirectory.release_directory = "exercises"
 
 c.ClearSolutions.code_stub = {"python": "# your code here"}
 
-c.Autograde.exporter_class = "autograder.grading.plugins.converters.SubmissionExporter"
 c.Autograde.sanitize_preprocessors = [
     "autograder.grading.plugins.preprocessors.RestoreCells",
     "nbgrader.preprocessors.CheckCellMetadata",
@@ -25,13 +24,10 @@ c.Autograde.autograde_preprocessors = [
     "autograder.grading.plugins.preprocessors.SandboxExecute",
     "autograder.grading.plugins.preprocessors.JudgeAnswers",
     "nbgrader.preprocessors.LimitOutput",
-    "nbgrader.preprocessors.SaveAutoGrades",
-    "autograder.grading.plugins.preprocessors.SaveNotes",
-    "nbgrader.preprocessors.AssignLatePenalties",
     "nbgrader.preprocessors.CheckCellMetadata",
 ]
 
-c.GenerateFeedback.exporter_class = "autograder.grading.plugins.converters.FeedbackExporter"
+c.GenerateFeedback.exporter_class = "autograder.grading.plugins.feedback.FeedbackExporter"
 c.GenerateFeedback.preprocessors = [
     "autograder.grading.plugins.preprocessors.Summarize",
     "nbconvert.preprocessors.CSSHTMLHeaderPreprocessor",

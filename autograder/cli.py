@@ -5,8 +5,13 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import signal
 import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import Field, fields
+from io import TextIOWrapper
 from typing import Any
 
 from autograder.sandbox import Limits
@@ -44,24 +49,69 @@ def _shown(limit: Field) -> str:
     return f"{default >> size}{letter}"
 
 
-def main(argv: list[str] | None = None) -> int:
-    """Run the command line `argv`; returns the exit code: 0 done, 1 something failed, 2 the command made no sense."""
-    options = _parser().parse_args(argv)
+class Stopped(KeyboardInterrupt):
+    """A signal asked the command to stop."""
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+
+
+@contextmanager
+def _stoppable() -> Iterator[None]:
+    """Within the block a signal to stop raises `Stopped`; a second one ends the process at once.
+
+    A signal that is ignored, as under nohup, stays ignored.
+    """
+    signals = (signal.SIGINT, signal.SIGTERM, *([signal.SIGHUP] if hasattr(signal, "SIGHUP") else []))
+    before = {number: found for number in signals if (found := signal.getsignal(number)) != signal.SIG_IGN}
+    if threading.current_thread() is not threading.main_thread():
+        before = {}
+
+    def stop(number: int, frame: object) -> None:
+        for each in before:
+            signal.signal(each, lambda number, frame: os._exit(128 + number))
+        raise Stopped(number)
+
+    for number in before:
+        signal.signal(number, stop)
     try:
-        return options.run(options)
-    except KeyboardInterrupt:
-        print("interrupted: what was graded before is in the gradebook", file=sys.stderr)
-        return 130
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run the command line `argv`.
+
+    Returns
+    -------
+    int
+        Exit code: 0 done, 1 something failed, 2 the command made no sense, 128 and the number of the signal that
+        stopped it.
+    """
+    options = _parser().parse_args(argv)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            # A name that the terminal cannot show must not end the command.
+            stream.reconfigure(errors="replace")
+    try:
+        with _stoppable():
+            return options.run(options)
+    except KeyboardInterrupt as stopped:
+        print("interrupted: what was graded before is in the gradebook; run it again for the rest", file=sys.stderr)
+        return 128 + (stopped.number if isinstance(stopped, Stopped) else signal.SIGINT)
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
     except Exception as error:
-        from autograder.grading.course import CourseError
+        from autograder.grading.errors import CourseError, in_words
+        from autograder.grading.gradebook import GradebookError
 
-        if not isinstance(error, CourseError):
+        if not isinstance(error, CourseError | OSError):
             raise
-        print(f"autograder: {error}", file=sys.stderr)
-        return 2
+        print(f"autograder: {in_words(error)}", file=sys.stderr)
+        return 1 if isinstance(error, GradebookError | OSError) else 2
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -154,7 +204,13 @@ def _release(options) -> int:
 
     course = _course(options)
     for exercise in options.exercise or course.exercises():
-        print(release(course, exercise))
+        changes = release(course, exercise)
+        print(course.step("release", ".", exercise))
+        for what, questions in (("new", changes.added), ("no longer asked", changes.removed)):
+            if changes.submissions and questions:
+                print(
+                    f"  {what}: {', '.join(questions)}; for {changes.submissions} submissions, run: autograder grade {exercise}"
+                )
     return 0
 
 
@@ -185,8 +241,8 @@ def _grade(options) -> int:
 
 
 def _feedback(options) -> int:
-    from autograder.grading.course import CourseError, convert
-    from autograder.grading.plugins.converters import FeedbackPages
+    from autograder.grading.course import convert
+    from autograder.grading.plugins.feedback import FeedbackPages
 
     course = _course(options)
     course.choose(options.exercise)
@@ -194,8 +250,6 @@ def _feedback(options) -> int:
     pages.force = True
     convert(pages)
     written = sorted(course.step("feedback", "*", options.exercise).parent.parent.glob(f"*/{options.exercise}/*.html"))
-    if not written:
-        raise CourseError(f"nothing was graded for {options.exercise} yet; run: autograder grade {options.exercise}")
     print(*written, sep="\n")
     return 0
 
@@ -217,16 +271,16 @@ def _report(options) -> int:
 
 
 def _export(options) -> int:
-    from nbgrader.api import Gradebook
     from traitlets.config import Config
 
+    from autograder.grading.gradebook import stock_gradebook
     from autograder.grading.plugins.export import GradesAndNotes
 
     target = os.path.abspath(options.to)
     course = _course(options, Config(ExportPlugin={"to": target, "assignment": options.exercise}))
     for exercise in options.exercise:
         course.choose(exercise)
-    with Gradebook(course.app.coursedir.db_url, course.app.coursedir.course_id) as gradebook:
+    with stock_gradebook(course.db_url, course.app.coursedir.course_id) as gradebook:
         GradesAndNotes(parent=course.app).export(gradebook)
     print(target)
     return 0

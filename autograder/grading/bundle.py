@@ -6,7 +6,7 @@ import json
 import zipfile
 from pathlib import Path
 
-from .course import CourseError
+from .errors import CourseError
 
 FOLDERS = ("course", "exercises")
 FOR_LECTURERS = ("course/13_errata.ipynb",)

@@ -4,25 +4,29 @@ from __future__ import annotations
 
 import logging
 import os
+import traceback
 from dataclasses import dataclass
 from pathlib import Path
 
 from nbgrader.apps import NbGrader
 from nbgrader.converters.base import BaseConverter, NbGraderException
 from traitlets.config import Config
+from traitlets.config.loader import FileConfigLoader
 
+from .errors import CourseError, in_words
+from .folders import student_names, unusable_names
 from .host import prepare
-from .plugins.converters import student_names
 
 CONFIG = "nbgrader_config.py"
 
 
-class CourseError(Exception):
-    """The command cannot do what was asked; the message is for the person who typed it."""
-
-
 def find_root(given: str | None) -> Path:
     """The course root: `given`, or the nearest folder at or above the current one with nbgrader_config.py."""
+    if given is None or not os.path.isabs(given):
+        try:
+            os.getcwd()
+        except FileNotFoundError:
+            raise CourseError("the current folder was removed; go to the course folder or say --course DIR") from None
     if given is not None:
         root = Path(given).resolve()
         if not (root / CONFIG).is_file():
@@ -43,6 +47,11 @@ class Course:
 
     root: Path
     app: NbGrader
+
+    @property
+    def db_url(self) -> str:
+        """Where nbgrader keeps the gradebook."""
+        return self.app.coursedir.db_url
 
     def step(self, name: str, student: str = ".", exercise: str = "") -> Path:
         """Folder of a step: ``source``, ``release``, ``submitted``, ``autograded`` or ``feedback``."""
@@ -72,6 +81,8 @@ class Course:
     def submissions(self, exercises: list[str], students: list[str]) -> dict[str, list[str]]:
         """Who is to be graded, by exercise; an empty list means all exercises, or everybody.
 
+        An exercise for which there are only folders with unusable names comes with an empty list.
+
         Raises
         ------
         CourseError
@@ -81,7 +92,8 @@ class Course:
             self.require(exercise)
         handed_in = {exercise: self.students(exercise) for exercise in exercises or self.exercises()}
         everybody = sorted({name for names in handed_in.values() for name in names})
-        if not everybody:
+        unusable = {exercise for exercise in handed_in if self.unusable_folders(exercise)}
+        if not everybody and not unusable:
             raise CourseError(
                 f"nobody handed in anything: {self.step('submitted', '*', ' or '.join(handed_in))} is empty"
             )
@@ -93,22 +105,31 @@ class Course:
             exercise: [name for name in names if not students or name in students]
             for exercise, names in handed_in.items()
         }
-        return {exercise: names for exercise, names in wanted.items() if names}
+        return {exercise: names for exercise, names in wanted.items() if names or exercise in unusable}
 
-    def unusable_folders(self, exercise: str) -> list[str]:
-        """Names of submission folders that hold line breaks or other characters that nbgrader cannot work with."""
+    def unusable_folders(self, exercise: str) -> dict[str, str]:
+        """Folders with something for `exercise` whose names cannot be students' ids, with the reason."""
         step = self.step("submitted")
-        names = os.listdir(step) if step.is_dir() else []
-        return sorted(name for name in names if not name.isprintable() and (step / name / exercise).is_dir())
+        return {name: why for name, why in unusable_names(step).items() if (step / name / exercise).is_dir()}
 
 
 def open_course(root: Path, config: Config | None = None, verbose: bool = False) -> Course:
     """nbgrader on the course in `root`; `config` comes on top of the course's own configuration."""
+    try:
+        os.getcwd()
+    except FileNotFoundError:
+        # nbgrader goes back to the current folder after each step, so there has to be one.
+        os.chdir(root)
     prepare()
     app = NbGrader()
     app.load_cwd_config = False
+    app.raise_config_file_errors = True
     app.log_level = logging.INFO if verbose else logging.ERROR
-    app.initialize([], root=str(root))
+    try:
+        app.initialize([], root=str(root))
+    except Exception as error:
+        file = _configuration(error) or root / CONFIG
+        raise CourseError(f"{file} cannot be used ({in_words(error)}); mend it or move it away") from error
     for handler in app.log.handlers if not verbose else ():
         handler.setLevel(logging.CRITICAL + 1)
     if config:
@@ -116,28 +137,19 @@ def open_course(root: Path, config: Config | None = None, verbose: bool = False)
     return Course(root, app)
 
 
+def _configuration(error: Exception) -> str | None:
+    """The file of configuration that was being read when `error` came up."""
+    found = None
+    for frame, _ in traceback.walk_tb(error.__traceback__):
+        loader = frame.f_locals.get("self")
+        if isinstance(loader, FileConfigLoader):
+            found = loader.full_filename
+    return found
+
+
 def convert(converter: BaseConverter) -> None:
     """Run a converter of nbgrader; `CourseError` with its reason if it fails."""
-    kept = _Kept()
-    converter.log.addHandler(kept)
     try:
         converter.start()
     except NbGraderException as error:
-        raise CourseError(kept.reason() or str(error)) from None
-    finally:
-        converter.log.removeHandler(kept)
-
-
-class _Kept(logging.Handler):
-    """Keeps what nbgrader logs as errors: the exceptions it raises do not say what went wrong."""
-
-    def __init__(self) -> None:
-        super().__init__(logging.ERROR)
-        self.messages: list[str] = []
-
-    def emit(self, record: logging.LogRecord) -> None:
-        self.messages.append(record.getMessage().strip())
-
-    def reason(self) -> str | None:
-        with_traceback = [message for message in self.messages if message.startswith("Traceback")]
-        return next((message.splitlines()[-1] for message in with_traceback + self.messages), None)
+        raise error.__cause__ if isinstance(error.__cause__, CourseError) else CourseError(str(error)) from None

@@ -11,7 +11,7 @@ from sqlalchemy.exc import SAWarning
 
 
 def prepare() -> None:
-    """Make nbgrader work without an activated environment, and grade with `SubmissionAutograde`.
+    """Make nbgrader work without an activated environment, and use our converters in place of its own.
 
     A new gradebook starts a bare ``alembic`` found on PATH, so the interpreter's own folder must stand there first.
     Calling it again changes nothing.
@@ -25,7 +25,13 @@ def prepare() -> None:
 
     import nbgrader.apps.api
     import nbgrader.apps.autogradeapp
+    import nbgrader.apps.generateassignmentapp
+    import nbgrader.apps.generatefeedbackapp
 
-    from .plugins.converters import SubmissionAutograde
+    from .plugins.assignment import AssignmentRelease
+    from .plugins.autograde import SubmissionAutograde
+    from .plugins.feedback import FeedbackPages
 
+    nbgrader.apps.api.GenerateAssignment = nbgrader.apps.generateassignmentapp.GenerateAssignment = AssignmentRelease
     nbgrader.apps.api.Autograde = nbgrader.apps.autogradeapp.Autograde = SubmissionAutograde
+    nbgrader.apps.api.GenerateFeedback = nbgrader.apps.generatefeedbackapp.GenerateFeedback = FeedbackPages

@@ -10,31 +10,31 @@ guest: the same plug-ins, in the same order, give the same gradebook whether our
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from contextlib import closing
+from contextlib import closing, contextmanager
 
 import nbformat
-from nbgrader.api import Gradebook
 
 from autograder.sandbox import cancel_runs
 
-from .cells import notebook_record
-from .course import Course, CourseError, convert
+from .course import Course, convert
+from .errors import CourseError, in_words
+from .folders import released_path
+from .gradebook import GradebookError, reading
 from .inert import terminal_text
-from .plugins.converters import (
-    FeedbackPages,
-    NotReady,
+from .plugins.autograde import (
     SubmissionAutograde,
     notebook_names,
     refuse_unless_fit,
     refuse_unless_ready,
-    released_path,
     submission,
 )
+from .plugins.feedback import FeedbackPages
 from .plugins.preprocessors import SandboxExecute
-from .results import Result, graded_notebooks, read_result
-from .submission.execution import Execution, MachineFault
+from .results import Result, read_result
+from .store import StoredNotebook, stored_notebooks
+from .submission.execution import Execution
 from .submission.reading import fingerprint
 from .submission.restore import restore
 
@@ -62,20 +62,23 @@ def grade(
     """
     course.choose(exercise)
     converter = SubmissionAutograde(coursedir=course.app.coursedir, parent=course.app)
-    try:
-        refuse_unless_ready(converter)
-        names = notebook_names(converter)
-        status = {}
-        for student in students:
-            status[student] = "graded" if force or _is_new(course, student, exercise, names) else "unchanged"
-        if "graded" in status.values():
-            refuse_unless_fit(converter)
-    except NotReady as reason:
-        raise CourseError(str(reason)) from None
+    refuse_unless_ready(converter)
+    names = notebook_names(converter)
     runner = SandboxExecute(parent=converter)
+    stored = _stored(course, exercise)
+    status: dict[str, str] = {}
+    failures: dict[str, str] = {}
     for student in students:
+        status[student] = "unchanged"
+        with _noting(failures, student):
+            if force or not _is_done(course, stored.get(student, {}), student, exercise, names):
+                status[student] = "graded"
+            else:
+                _write_pages(course, student, force=False)
         if status[student] == "unchanged":
             progress(student)
+    if "graded" in status.values():
+        refuse_unless_fit(converter)
 
     def run(student: str) -> dict[tuple[str, str], Execution]:
         return {(student, name): _run(course, runner.run, student, exercise, name) for name in names}
@@ -83,38 +86,63 @@ def grade(
     def run_alone(student: str) -> dict[tuple[str, str], Execution]:
         return {(student, name): _run(course, runner.run_alone, student, exercise, name) for name in names}
 
-    failures: dict[str, str] = {}
     with closing(_run_ahead(run, run_alone, [name for name in students if status[name] == "graded"], jobs)) as runs:
         for student, future in runs:
-            try:
+            with _noting(failures, student):
                 _store(course, student, future.result())
-            except Exception as error:
-                known = isinstance(error, CourseError | MachineFault)
-                failures[student] = str(error) if known else f"could not be run: {error!r}"
             progress(student)
-    unusable = [_unusable(name, exercise) for name in course.unusable_folders(exercise)]
-    with Gradebook(course.app.coursedir.db_url, course.app.coursedir.course_id) as gradebook:
-        return unusable + [
-            Result(student, exercise, "failed", remarks=(failures[student],))
-            if student in failures
-            else read_result(course, gradebook, student, exercise, status[student])
-            for student in students
-        ]
+    stored = _stored(course, exercise)
+    unusable = [
+        Result(terminal_text(name), exercise, "failed", remarks=(reason,))
+        for name, reason in course.unusable_folders(exercise).items()
+    ]
+    return unusable + [
+        Result(student, exercise, "failed", remarks=(failures[student],))
+        if student in failures
+        else read_result(course, stored.get(student, {}), student, exercise, status[student])
+        for student in students
+    ]
 
 
-def _unusable(folder: str, exercise: str) -> Result:
-    return Result(
-        terminal_text(folder), exercise, "failed", remarks=("the folder's name holds control characters; rename it",)
+@contextmanager
+def _noting(failures: dict[str, str], student: str) -> Iterator[None]:
+    """Note what goes wrong with one student, so that the class can go on.
+
+    A gradebook that cannot be used concerns everybody: that ends the run.
+    """
+    try:
+        yield
+    except GradebookError:
+        raise
+    except CourseError as error:
+        failures[student] = str(error)
+    except Exception as error:
+        failures[student] = f"could not be run: {in_words(error)}"
+
+
+def _stored(course: Course, exercise: str) -> dict[str, dict[str, StoredNotebook]]:
+    """What the gradebook holds of an exercise, by student and name of the notebook."""
+    found: dict[str, dict[str, StoredNotebook]] = {}
+    with reading(course.db_url) as session:
+        for (student, name), one in stored_notebooks(session, exercise).items():
+            found.setdefault(student, {})[name] = one
+    return found
+
+
+def _is_done(
+    course: Course, stored: Mapping[str, StoredNotebook], student: str, exercise: str, names: Sequence[str]
+) -> bool:
+    """True if everything that was handed in is stored as a whole."""
+    submitted, graded = course.step("submitted", student, exercise), course.step("autograded", student, exercise)
+    if set(names) != stored.keys():
+        return False
+    return all(
+        stored[name].is_graded(
+            fingerprint(submitted, released_path(course.app.coursedir, exercise, name).read_bytes()),
+            graded / f"{name}.ipynb",
+        )
+        for name in names
     )
-
-
-def _is_new(course: Course, student: str, exercise: str, names: list[str]) -> bool:
-    notebooks = graded_notebooks(course, student, exercise)
-    if len(notebooks) != len(names):
-        return True
-    folder = course.step("submitted", student, exercise)
-    now = {fingerprint(folder, released_path(course.app.coursedir, exercise, name).read_bytes()) for name in names}
-    return now != {notebook_record(nb).submission for nb in notebooks}
 
 
 def _run(course: Course, run: Callable[..., Execution], student: str, exercise: str, name: str) -> Execution:
@@ -125,16 +153,29 @@ def _run(course: Course, run: Callable[..., Execution], student: str, exercise: 
 
 
 def _store(course: Course, student: str, executions: dict[tuple[str, str], Execution]) -> None:
-    """Judge what came out of the sandbox, store it in the gradebook and write the feedback page."""
-    whose = {"coursedir": course.app.coursedir, "parent": course.app, "students": (student,), "force": True}
+    """Judge what came out of the sandbox, store it as a whole and write the feedback page."""
+    converter = SubmissionAutograde(
+        coursedir=course.app.coursedir, parent=course.app, students=(student,), force=True, executions=executions
+    )
     try:
-        convert(SubmissionAutograde(executions=executions, **whose))
+        convert(converter)
+    except GradebookError:
+        raise
     except CourseError as reason:
-        raise CourseError(f"could not be judged: {reason}") from None
+        raise CourseError(f"could not be judged: {converter.failures.get(student, reason)}") from None
+    _write_pages(course, student, force=True)
+
+
+def _write_pages(course: Course, student: str, force: bool) -> None:
+    """Write the feedback pages of a student, unless they are there already and show what the gradebook holds."""
+    converter = FeedbackPages(coursedir=course.app.coursedir, parent=course.app, students=(student,), force=force)
     try:
-        convert(FeedbackPages(**whose))
+        convert(converter)
+    except GradebookError:
+        raise
     except CourseError as reason:
-        raise CourseError(f"the points are in the gradebook, but there is no feedback page: {reason}") from None
+        said = converter.failures.get(student, reason)
+        raise CourseError(f"the points are in the gradebook, but there is no feedback page: {said}") from None
 
 
 def _in_doubt(run: Future) -> bool:

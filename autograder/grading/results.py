@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import nbformat
-from nbgrader.api import Gradebook, MissingEntry
 
-from .cells import check_cells, check_record, notebook_record, question_id
+from .cells import answer_id, check_cells, check_record, notebook_record, question_id
 from .course import Course
-from .entries import read_entries
+from .entries import note_of
 from .inert import terminal_text
+from .store import StoredNotebook
 from .submission.reading import Unreadable, plain_bytes
 
 # From this many on, questions with the same note share it: "U1, T04, model: not_attempted".
@@ -89,32 +90,38 @@ def graded_notebooks(course: Course, student: str, exercise: str) -> list[nbform
     for path in sorted(course.step("autograded", student, exercise).glob("*.ipynb")):
         try:
             found.append(nbformat.reads(plain_bytes(path, 64 << 20).decode(), as_version=4))
-        except (Unreadable, ValueError):
+        except (Unreadable, OSError, ValueError):
             return []
     return found
 
 
-def read_result(course: Course, gradebook: Gradebook, student: str, exercise: str, status: str) -> Result:
-    """The result of a submission that was graded now or before."""
-    try:
-        submission = gradebook.find_submission(exercise, student)
-    except MissingEntry:
+def read_result(
+    course: Course, stored: Mapping[str, StoredNotebook], student: str, exercise: str, status: str
+) -> Result:
+    """The result of a submission that was graded now or before; `stored` by name of the notebook."""
+    if not stored:
         return Result(student, exercise, "failed", remarks=("the gradebook does not know this submission",))
     notebooks = graded_notebooks(course, student, exercise)
     judged = {check: check_record(cell) for nb in notebooks for check, cell in check_cells(nb).items()}
-    entries = {entry.check: entry for entry in read_entries(submission)}
-    order = [check for check in judged if check in entries] + [check for check in entries if check not in judged]
-    answers = [
-        QuestionResult(
-            question_id(entry.check), entry.score, entry.max_score, entry.note or "", record.trouble if record else None
-        )
-        for entry, record in ((entries[check], judged.get(check)) for check in order)
-    ]
-    feedback = sorted(course.step("feedback", student, exercise).glob("*.html"))
-    score = max(0.0, submission.score - submission.late_submission_penalty)
-    page = str(feedback[0]) if feedback else None
-    remarks = tuple(remark for nb in notebooks for remark in notebook_record(nb).remarks())
-    return Result(student, exercise, status, score, submission.max_score, tuple(answers), remarks, page)
+    grades = {name: grade for one in stored.values() for name, grade in one.grades.items() if grade.cell_type == "code"}
+    comments = {name: found.auto for one in stored.values() for name, found in one.comments.items()}
+    answers = []
+    for check in sorted(grades, key=lambda check: list(judged).index(check) if check in judged else len(judged)):
+        record, note = judged.get(check), note_of(comments.get(answer_id(check)))
+        trouble = record.trouble if record else None
+        grade = grades[check]
+        answers.append(QuestionResult(question_id(check), grade.score, grade.max_score, note or "", trouble))
+    pages = sorted(course.step("feedback", student, exercise).glob("*.html"))
+    return Result(
+        student,
+        exercise,
+        status,
+        score=max(0.0, sum(one.score - one.penalty for one in stored.values())),
+        max_score=sum(one.max_score for one in stored.values()),
+        answers=tuple(answers),
+        remarks=tuple(remark for nb in notebooks for remark in notebook_record(nb).remarks()),
+        feedback=str(pages[0]) if pages else None,
+    )
 
 
 def relative(path: str | Path, root: Path) -> str:

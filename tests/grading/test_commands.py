@@ -138,7 +138,7 @@ def test_released_notebook_and_gradebook_must_agree(course_copy, small, released
 
 def test_without_a_sandbox_grading_is_refused(course_copy, small, released, capsys, monkeypatch):
     small.hand_in(course_copy, "ann", small.answered(released))
-    monkeypatch.setattr("autograder.grading.plugins.converters.available", lambda: "bubblewrap is missing")
+    monkeypatch.setattr("autograder.grading.plugins.autograde.available", lambda: "bubblewrap is missing")
     assert run(course_copy, "grade", "scara") == 2
     assert "no sandbox: bubblewrap is missing" in capsys.readouterr().err
     assert not (course_copy / "autograded").exists()

@@ -50,7 +50,7 @@ def test_stock_autograde_refuses_without_a_sandbox(course_copy, small, released,
     from nbgrader.apps import AutogradeApp
 
     small.hand_in(course_copy, "ann", small.answered(released))
-    monkeypatch.setattr("autograder.grading.plugins.converters.available", lambda: "bubblewrap is missing")
+    monkeypatch.setattr("autograder.grading.plugins.autograde.available", lambda: "bubblewrap is missing")
     monkeypatch.chdir(course_copy)
     app = AutogradeApp()
     app.initialize(["scara", "--log-level=CRITICAL"])

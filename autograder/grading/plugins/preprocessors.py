@@ -1,8 +1,8 @@
 """Our parts of nbgrader's conversions, named in nbgrader_config.py.
 
 ``nbgrader autograde`` converts twice: first it sanitizes what was handed in (`RestoreCells`), then it grades the
-result (`SandboxExecute`, `JudgeAnswers`, nbgrader's own SaveAutoGrades, `SaveNotes`). ``nbgrader
-generate_feedback`` converts the graded notebook to a page (`Summarize`).
+result (`SandboxExecute`, `JudgeAnswers`). ``nbgrader generate_feedback`` converts the graded notebook to a page
+(`Summarize`). None of them writes to the gradebook: the converters store what comes out, as a whole.
 """
 
 from __future__ import annotations
@@ -16,8 +16,7 @@ from typing import Any, cast
 import nbformat
 from nbformat.notebooknode import NotebookNode
 from nbformat.v4 import new_output
-from nbgrader.api import Gradebook
-from nbgrader.preprocessors import GetGrades, NbGraderPreprocessor
+from nbgrader.preprocessors import NbGraderPreprocessor
 from traitlets import Enum, Float, Integer, TraitType
 
 from autograder import questions
@@ -28,7 +27,6 @@ from dhkit.public import questions as public_questions
 
 from ..cells import (
     CheckRecord,
-    answer_id,
     check_cells,
     check_name,
     check_record,
@@ -37,8 +35,9 @@ from ..cells import (
     tracked_cells,
     write_record,
 )
-from ..entries import comment, score
+from ..entries import score
 from ..inert import terminal_text
+from ..store import StoredNotebook
 from ..submission import trial
 from ..submission.execution import Execution, Mode, confirm, execute
 from ..submission.restore import restore
@@ -152,27 +151,19 @@ class JudgeAnswers(NbGraderPreprocessor):
         return cell, resources
 
 
-class SaveNotes(NbGraderPreprocessor):
-    """Stores each answer note as the automatic comment of its answer cell, where formgrader shows it."""
+class Summarize(NbGraderPreprocessor):
+    """Puts what the gradebook holds into a graded notebook, and gathers the table at the top of its feedback page."""
 
     def preprocess(self, nb: NotebookNode, resources: dict) -> tuple[NotebookNode, dict]:
-        names = resources["nbgrader"]
-        tracked = tracked_cells(nb)
-        with Gradebook(names["db_url"]) as gradebook:
-            for check, cell in check_cells(nb).items():
-                record, answer = check_record(cell), answer_id(check)
-                if record is not None and answer in tracked:
-                    found = gradebook.find_comment(answer, names["notebook"], names["assignment"], names["student"])
-                    found.auto_comment = comment(record.note)
-            gradebook.db.commit()
-        return nb, resources
-
-
-class Summarize(GetGrades):
-    """nbgrader's GetGrades, which also gathers the table at the top of a feedback page."""
-
-    def preprocess(self, nb: NotebookNode, resources: dict) -> tuple[NotebookNode, dict]:
-        nb, resources = super().preprocess(nb, resources)
+        stored: StoredNotebook = resources["stored"]
+        for name, cell in tracked_cells(nb).items():
+            if (found := stored.comments.get(name)) is not None:
+                cell.metadata.nbgrader["comment"] = found.text
+            if (grade := stored.grades.get(name)) is not None:
+                cell.metadata.nbgrader.update(score=grade.score, points=grade.max_score)
+        resources["nbgrader"] |= {
+            "score": stored.score - stored.penalty, "max_score": stored.max_score, "late_penalty": stored.penalty
+        }  # fmt: skip
         resources["autograder"] = {
             "questions": [_summary(cell) for cell in check_cells(nb).values()],
             "said": notebook_record(nb).remarks(),

@@ -11,7 +11,7 @@ from markupsafe import Markup
 
 from autograder.judge.written import written
 
-from ..course import CourseError
+from ..errors import CourseError
 from ..inert import spreadsheet_cell
 from . import plots
 from .statistics import ClassReport
@@ -39,7 +39,11 @@ def as_html(report: ClassReport) -> str:
         loader=FileSystemLoader(Path(__file__).parent / "templates"),
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
-    environment.filters |= {"written": written, "students": _students, "percent": lambda share: f"{share:.0%}"}
+    environment.filters |= {
+        "written": lambda answer: written(answer.value),
+        "students": _students,
+        "percent": lambda share: f"{share:.0%}",
+    }
     # Data URIs of our own plots: base64, which needs no escaping.
     drawn = {
         "overview": Markup(plots.overview(report)),

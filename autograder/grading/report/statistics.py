@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from statistics import StatisticsError, correlation, mean, median
 
 from nbformat.notebooknode import NotebookNode
-from nbgrader.api import Gradebook, MissingEntry
+from nbgrader.api import MissingEntry
 
 from autograder import questions
 from autograder.judge import Question
@@ -19,8 +19,10 @@ from autograder.judge.decode import Decoded
 from dhkit.public import questions as public_questions
 
 from ..cells import check_cells, check_record, question_id
-from ..course import Course, CourseError
+from ..course import Course
 from ..entries import read_entries
+from ..errors import CourseError
+from ..gradebook import stock_gradebook
 from ..inert import terminal_text
 from ..results import graded_notebooks
 
@@ -160,7 +162,7 @@ def class_report(course: Course, exercise: str) -> ClassReport:
     course.choose(exercise)
     rows: dict[str, dict[str, tuple[float, str]]] = {}
     max_scores: dict[str, float] = {}
-    with Gradebook(course.app.coursedir.db_url, course.app.coursedir.course_id) as gradebook:
+    with stock_gradebook(course.db_url, course.app.coursedir.course_id) as gradebook:
         try:
             submissions = gradebook.find_assignment(exercise).submissions
         except MissingEntry:

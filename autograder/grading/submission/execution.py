@@ -18,13 +18,14 @@ from autograder.judge import MIME, Evidence
 from autograder.sandbox import CellRun, Limits, Run, read_folders, run_notebook
 
 from ..cells import answer_id, check_cells, check_name, grade_id, is_check, notebook_record, question_id
+from ..errors import CourseError
 from ..inert import inert_outputs
 
 Mode = Literal["bwrap", "none"]
 _NAMES_SHOWN = 5
 
 
-class MachineFault(RuntimeError):
+class MachineFault(CourseError):
     """A submission cannot be graded on this machine now; the message says why, and what to do."""
 
 

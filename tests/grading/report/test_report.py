@@ -11,8 +11,9 @@ import sympy
 from bs4 import BeautifulSoup
 
 from autograder import cli
-from autograder.grading.course import CourseError, convert, open_course
-from autograder.grading.plugins.converters import SubmissionAutograde
+from autograder.grading.course import convert, open_course
+from autograder.grading.errors import CourseError
+from autograder.grading.plugins.autograde import SubmissionAutograde
 from autograder.grading.report.page import as_html, tables, write_report
 from autograder.grading.report.statistics import ClassReport, class_report, discrimination
 from autograder.grading.submission.execution import Execution
@@ -70,7 +71,14 @@ def grade(root, answers):
         executions[student, "scara"] = Execution(fingerprint(folder, released.read_bytes()), {}, evidence)
     if answers:
         convert(
-            SubmissionAutograde(coursedir=course.app.coursedir, parent=course.app, executions=executions, force=True)
+            # Named one by one: no folder of such a name is taken for a student's, but a gradebook may hold one.
+            SubmissionAutograde(
+                coursedir=course.app.coursedir,
+                parent=course.app,
+                students=tuple(answers),
+                executions=executions,
+                force=True,
+            )
         )
     return course
 

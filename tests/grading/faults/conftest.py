@@ -1,0 +1,237 @@
+"""A class whose runs are prepared ahead, and a process that is stopped at any step of storing their results."""
+
+import errno
+import os
+import shutil
+import sqlite3
+import sys
+import traceback
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+import sqlalchemy
+from sqlalchemy.exc import OperationalError
+
+from autograder import cli
+from autograder.grading import files
+from autograder.grading.cells import check_cells, notebook_record, question_id
+from autograder.grading.plugins import preprocessors
+from autograder.grading.plugins.preprocessors import SandboxExecute
+from autograder.grading.submission.execution import Execution
+from autograder.judge import Evidence
+from dhkit import wire
+
+CHOICES = {"right": "B", "wrong": "C"}
+ENTRIES = """
+select student.id, base_cell.name, grade.auto_score, comment.auto_comment from submitted_assignment
+join student on student.id = submitted_assignment.student_id
+join submitted_notebook on submitted_notebook.assignment_id = submitted_assignment.id
+join grade on grade.notebook_id = submitted_notebook.id
+join base_cell on base_cell.id = grade.cell_id
+join base_cell as answer on answer.name = base_cell.name || '-answer' and answer.notebook_id = base_cell.notebook_id
+join comment on comment.notebook_id = submitted_notebook.id and comment.cell_id = answer.id
+order by student.id, base_cell.name"""
+
+
+def prepared(self, nb, folder, released, student, course):
+    """What the sandbox would bring back: an answer cell says of itself whether it is right."""
+    sources = {cell.metadata.nbgrader.grade_id: cell.source for cell in nb.cells if "nbgrader" in cell.metadata}
+    evidence = {}
+    for check in check_cells(nb):
+        word = sources[f"{check}-answer"].strip("# ")
+        answer = wire.encode(CHOICES[word]) if check == "scara-d2_sign" and word in CHOICES else {"blank": True}
+        evidence[check] = Evidence(wire.packet(question_id(check), answer=answer))
+    return Execution(notebook_record(nb).submission, {}, evidence)
+
+
+def hand_in(small, root, released, student, word):
+    small.hand_in(root, student, small.answered(released, T04="# nothing", d2_sign=f"# {word}", forward="# nothing"))
+
+
+def entries(root):
+    with sqlite3.connect(root / "gradebook.db") as connection:
+        assert connection.execute("pragma integrity_check").fetchone() == ("ok",)
+        return connection.execute(ENTRIES).fetchall()
+
+
+def files_below(root):
+    """Paths of everything in the course's folders."""
+    steps = ("autograded", "feedback", "exercises")
+    return sorted(str(path.relative_to(root)) for step in steps for path in (root / step).rglob("*"))
+
+
+def start(action):
+    """Start `action` in a process of its own; returns its number."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    if (child := os.fork()) == 0:
+        code = 99
+        try:
+            code = action()
+        except BaseException:
+            traceback.print_exc()
+        finally:
+            sys.stdout.flush()
+            sys.stderr.flush()
+            os._exit(code)
+    return child
+
+
+def ended(child):
+    """Exit code of a process once it has ended; negative for a signal that ended it."""
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+
+
+def run(action):
+    """Exit code of `action` in a process of its own."""
+    return ended(start(action))
+
+
+def grade(root, *words):
+    return cli.main(["grade", "scara", "--course", str(root), "--jobs", "1", *words])
+
+
+class Steps:
+    """Counts the steps of storing in this process, and does something at one of them.
+
+    A step is a change of the gradebook or of a file, the half of a file that is written, and each verdict.
+    """
+
+    def __init__(self, stop_at=None, what=None):
+        self.names, self.stop_at, self.what = [], stop_at, what
+
+    def reached(self, name, failure=None):
+        self.names.append(name)
+        if self.stop_at is None or self.what is None:
+            return
+        if self.what == "full disk":
+            # It stays full from this step on.
+            if len(self.names) > self.stop_at and failure is not None:
+                raise failure
+        elif len(self.names) - 1 == self.stop_at:
+            for number in self.what:
+                os.kill(os.getpid(), number)
+
+    def watch(self):
+        full = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+        @sqlalchemy.event.listens_for(sqlalchemy.Engine, "before_cursor_execute")
+        def statement(connection, cursor, statement, *more):
+            if not statement.lstrip().upper().startswith(("SELECT", "PRAGMA")):
+                error = sqlite3.OperationalError("database or disk is full")
+                error.sqlite_errorname = "SQLITE_FULL"
+                self.reached(f"sql {statement.split()[0]}", OperationalError(statement, {}, error))
+
+        @sqlalchemy.event.listens_for(sqlalchemy.Engine, "commit")
+        def commit(connection):
+            self.reached("commit")
+
+        def around(name, call):
+            def stepped(*arguments, **options):
+                self.reached(f"before {name}", full)
+                result = call(*arguments, **options)
+                self.reached(f"after {name}")
+                return result
+
+            return stepped
+
+        os.replace, os.fsync = around("replace", os.replace), around("fsync", os.fsync)
+        Path.mkdir, Path.unlink = around("mkdir", Path.mkdir), around("unlink", Path.unlink)
+        preprocessors.judge = around("judge", preprocessors.judge)
+        whole = Path.open
+
+        def opened(path, mode="r", *more, **options):
+            file = whole(path, mode, *more, **options)
+            return HalfWritten(file, lambda: self.reached("half a file", full)) if mode == "xb" else file
+
+        files.Path.open = opened
+        return self
+
+
+class HalfWritten:
+    """A file that reports when the first half of its content is written."""
+
+    def __init__(self, file, half):
+        self.file, self.half = file, half
+
+    def write(self, content):
+        middle = len(content) // 2
+        self.file.write(content[:middle])
+        self.file.flush()
+        self.half()
+        self.file.write(content[middle:])
+
+    def __enter__(self):
+        self.file.__enter__()
+        return self
+
+    def __exit__(self, *error):
+        return self.file.__exit__(*error)
+
+    def __getattr__(self, name):
+        return getattr(self.file, name)
+
+
+@pytest.fixture(scope="session")
+def stub_runs(registry):
+    patch = pytest.MonkeyPatch()
+    patch.setattr(SandboxExecute, "run", prepared)
+    patch.setattr(SandboxExecute, "find_fault", lambda *settings: None)
+    patch.setattr("autograder.grading.plugins.autograde.available", lambda: None)
+    yield
+    patch.undo()
+
+
+@pytest.fixture(scope="session")
+def faults(small):
+    """The helpers of this file, by name."""
+    return SimpleNamespace(
+        Steps=Steps,
+        start=start,
+        ended=ended,
+        run=run,
+        grade=grade,
+        entries=entries,
+        files_below=files_below,
+        hand_in=hand_in,
+    )
+
+
+@pytest.fixture(scope="session")
+def half_graded(stub_runs, small, empty_course, released, tmp_path_factory):
+    """A class of three: `same` is graded, `old` was graded and handed in anew, `new` was never graded."""
+    root = tmp_path_factory.mktemp("faults") / "course"
+    shutil.copytree(empty_course, root)
+    hand_in(small, root, released, "same", "right")
+    hand_in(small, root, released, "old", "wrong")
+    # In this process: each later one starts as a copy of it, with all templates and statements compiled.
+    assert grade(root) == 0
+    hand_in(small, root, released, "old", "right")
+    hand_in(small, root, released, "new", "right")
+    return root
+
+
+@pytest.fixture
+def course(half_graded, tmp_path):
+    """A copy of the half graded class."""
+    root = tmp_path / "course"
+    shutil.copytree(half_graded, root)
+    return root
+
+
+@pytest.fixture(scope="session")
+def right(half_graded, tmp_path_factory):
+    """Gradebook entries, files and pages as they must be in the end, and the steps of storing that lead there."""
+    root = tmp_path_factory.mktemp("right") / "course"
+    shutil.copytree(half_graded, root)
+    names = tmp_path_factory.mktemp("steps") / "names"
+
+    def action():
+        steps = Steps().watch()
+        code = grade(root)
+        names.write_text("\n".join(steps.names))
+        return code
+
+    assert run(action) == 0
+    return SimpleNamespace(entries=entries(root), files=files_below(root), steps=names.read_text().splitlines())

@@ -1,0 +1,78 @@
+"""Stopped at any step of storing, in any way: the gradebook opens, and the next run ends with what is right."""
+
+import re
+from signal import SIGHUP, SIGINT, SIGKILL, SIGTERM
+
+import pytest
+
+pytestmark = pytest.mark.slow
+
+SCORES = {"new": 4, "old": 4, "same": 4}
+STEPS = range(100)
+"""More than there are; what lies behind the last is passed over."""
+
+
+def ends_right(faults, course, right):
+    """True after a plain rerun: points, notes, pages, and nothing left over."""
+    assert faults.run(lambda: faults.grade(course)) == 0
+    assert faults.entries(course) == right.entries
+    assert faults.files_below(course) == right.files
+    for student, score in SCORES.items():
+        page = (course / f"feedback/{student}/scara/scara.html").read_text()
+        assert re.search(rf"scara: {score} of 20 points", page) and page.rstrip().endswith("</html>")
+    return True
+
+
+def fault(faults, course, right, step, what):
+    """Exit code of a run to which `what` happens at one step of storing."""
+    if step >= len(right.steps):
+        pytest.skip("there are fewer steps")
+
+    def action():
+        faults.Steps(step, what).watch()
+        return faults.grade(course)
+
+    code = faults.run(action)
+    graded = {(student, check): score for student, check, score, _ in faults.entries(course)}
+    # A submission is stored as a whole or not at all; what was graded before stands.
+    assert graded["same", "scara-d2_sign"] == 4
+    assert graded["old", "scara-d2_sign"] in (0, 4) and None not in graded.values()
+    return code
+
+
+def test_the_class_is_graded(right):
+    scores = {}
+    for student, _, score, _ in right.entries:
+        scores[student] = scores.get(student, 0) + score
+    assert scores == SCORES
+    assert {name.split()[0] for name in right.steps} == {"sql", "commit", "before", "after", "half"}
+    assert right.steps.count("before judge") == 6 and right.steps.count("half a file") == 4
+    assert len(right.steps) < len(STEPS)
+
+
+@pytest.mark.parametrize("step", STEPS)
+def test_killed(faults, course, right, step):
+    assert fault(faults, course, right, step, [SIGKILL]) == -SIGKILL
+    assert ends_right(faults, course, right)
+
+
+@pytest.mark.parametrize(
+    "what", [[SIGTERM], [SIGHUP], [SIGINT], [SIGINT, SIGINT]], ids=["TERM", "HUP", "INT", "INT twice"]
+)
+@pytest.mark.parametrize("step", STEPS[3::9])
+def test_told_to_stop(faults, course, right, step, what, capfd):
+    assert fault(faults, course, right, step, what) == 128 + what[0]
+    said = capfd.readouterr().err
+    assert "Traceback" not in said
+    if len(what) == 1:
+        assert "interrupted: what was graded before is in the gradebook" in said
+    assert ends_right(faults, course, right)
+
+
+@pytest.mark.parametrize("step", STEPS[::2])
+def test_the_disk_is_full(faults, course, right, step, capfd):
+    code = fault(faults, course, right, step, "full disk")
+    said = "".join(capfd.readouterr())
+    assert "Traceback" not in said
+    assert (code == 1) == ("make room" in said)
+    assert ends_right(faults, course, right)
