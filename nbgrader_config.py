@@ -35,6 +35,10 @@ c.GenerateFeedback.preprocessors = [
 
 # Formgrader and feedback pages show what students wrote: nothing in it may act. Graded notebooks hold no HTML or
 # script output; what is left is Markdown. (sanitize_html would also escape the paragraphs of our own feedback.)
-c.HTMLExporter.filters = {"markdown2html": "autograder.grading.inert.markdown2html"}
+# What it costs to lay a page out is bounded, too.
+c.HTMLExporter.filters = {
+    name: f"autograder.grading.rendering.{name}"
+    for name in ("markdown2html", "highlight_code", "ansi2html", "clean_html", "strip_files_prefix")
+}
 
 c.ExportApp.plugin_class = "autograder.grading.plugins.export.GradesAndNotes"

@@ -7,14 +7,12 @@ from collections.abc import Iterable
 from html import escape
 
 import nh3
-from jinja2 import pass_context
 from nbconvert.filters.markdown_mistune import IPythonRenderer, MarkdownWithMath
 from nbformat.notebooknode import NotebookNode
 from nbformat.v4 import new_output
 from pygments.token import STANDARD_TYPES
 
-# nbconvert's Markdown parser needs seconds for some texts of this length, and minutes for longer ones.
-MAX_MARKDOWN = 20_000
+MAX_NESTING = 100  # tags within tags; what reads the page later on needs time with the square of it
 
 _SHOWN = ("text/plain", "text/latex", "image/svg+xml", "image/png", "image/jpeg")
 _BASE64 = re.compile(r"[A-Za-z0-9+/=\s]*\Z")
@@ -99,17 +97,24 @@ class _Renderer(IPythonRenderer):
         return super()._embed_image_or_attachment(src)
 
 
-@pass_context
-def markdown2html(context, source: str) -> str:
-    """nbconvert's filter of the same name, with every tag and attribute that could act left out."""
-    if len(source) > MAX_MARKDOWN:
-        return f"<pre>{escape(source)}</pre>"
-    attachments = (context.get("cell") or {}).get("attachments", {})
+def clean_markdown(source: str, attachments: dict[str, dict[str, str]]) -> str:
+    """Markdown as HTML, with every tag and attribute that could act left out.
+
+    Parameters
+    ----------
+    source : str
+    attachments : dict of str to dict
+        Pictures of the cell, by name.
+
+    Raises
+    ------
+    ValueError
+        If tags are nested more than `MAX_NESTING` deep.
+    """
     renderer = _Renderer(escape=False, attachments=attachments, exclude_anchor_links=True)
-    try:
-        page = MarkdownWithMath(renderer=renderer).render(source)
-    except RecursionError:
-        return f"<pre>{escape(source)}</pre>"
+    page = MarkdownWithMath(renderer=renderer).render(source)
+    if _nesting(page) > MAX_NESTING:
+        raise ValueError("nested too deep")
     return nh3.clean(
         page, tags=_TAGS, attributes=_ATTRIBUTES, attribute_filter=_attribute, url_schemes=_SCHEMES, link_rel=None
     )
@@ -126,7 +131,17 @@ _SCHEMES = {"http", "https", "mailto", "data"}
 _TAG = re.compile(r"</?\s*([a-zA-Z][^\s/>]*)")
 _LINK = re.compile(r"(https?://|mailto:|#)\S*\Z")
 _IMAGE = re.compile(r"data:image/(png|jpeg);base64,[A-Za-z0-9+/=\s]*\Z")
+_EMPTY = {"br", "hr", "img"}
 _CODE_CLASSES = frozenset(STANDARD_TYPES.values()) - {""} | {"highlight"}
+
+
+def _nesting(page: str) -> int:
+    """How deep tags of a page are nested at most, counted as if each that is opened were closed."""
+    depth = deepest = 0
+    for tag in _TAG.finditer(page):
+        depth = max(0, depth - 1) if tag[0].startswith("</") else depth + (tag[1].lower() not in _EMPTY)
+        deepest = max(deepest, depth)
+    return deepest
 
 
 def _is_allowed(html: str) -> bool:

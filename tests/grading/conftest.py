@@ -16,6 +16,7 @@ from autograder import questions
 from autograder.grading.course import open_course
 from autograder.grading.release import release
 from autograder.judge import Question, mistake
+from autograder.sandbox import available
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 CHECKS = {"scara-T04": 10, "scara-d2_sign": 4, "scara-forward": 6}
@@ -158,6 +159,13 @@ def course_copy(empty_course, tmp_path):
     root = tmp_path / "course"
     shutil.copytree(empty_course, root)
     return root
+
+
+@pytest.fixture(scope="session")
+def needs_sandbox():
+    """Skips where there is no sandbox to be had."""
+    if reason := available():
+        pytest.skip(reason)
 
 
 @pytest.fixture(autouse=True)

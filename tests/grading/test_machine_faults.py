@@ -114,12 +114,6 @@ def graded(needs_sandbox, course_copy, capsys, monkeypatch):
     return grade
 
 
-@pytest.fixture(scope="session")
-def needs_sandbox():
-    if reason := sandbox.available():
-        pytest.skip(reason)
-
-
 def without(monkeypatch, package):
     """Take a package out of every sandbox to come."""
     found = bubblewrap.mounts
