@@ -1,8 +1,12 @@
 """From what students hand in to a gradebook, notes and feedback: nbgrader plug-ins and the class pipeline.
 
+errors, cells  what went wrong, in words; ids and records of cells
 entries        what a verdict is in nbgrader's gradebook: a score and a comment
 inert          makes what a student wrote harmless to look at
 submission/    opens a submission strictly, restores it, runs it in the sandbox
+files          files that are there whole or not at all; folders: which students have one
+gradebook      nbgrader's gradebook, opened for one look or one change as a whole
+store          the result of a submission and its mark, stored together; exercise: the cells of a release
 plugins/       nbgrader's converters, preprocessors and exporters, as this course configures them
 host           prepares a process that runs nbgrader
 course         a course folder with nbgrader opened on it

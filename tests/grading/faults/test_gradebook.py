@@ -267,3 +267,28 @@ def test_several_graders_of_the_same_class(course, faults, right, graders):
     children = [faults.start(lambda: faults.grade(course)) for _ in range(graders)]
     codes = [faults.ended(child) for child in children]
     assert codes == [0] * graders and unchanged(faults, course, right)
+
+
+def test_two_exercises_of_the_same_new_students_at_once(course, faults, small, released, capsys):
+    """Both graders make the rows of the students."""
+    text = (course / "solutions/scara/scara.ipynb").read_text()
+    (course / "solutions/second").mkdir()
+    (course / "solutions/second/second.ipynb").write_text(text)
+    assert cli.main(["release", "second", "--course", str(course)]) == 0
+    for student in ("x", "y", "z"):
+        faults.hand_in(small, course, released, student, "right")
+        (course / "submitted" / student / "second").mkdir()
+        notebook = (course / "submitted" / student / "scara/scara.ipynb").read_bytes()
+        (course / "submitted" / student / "second/second.ipynb").write_bytes(notebook)
+
+    def grade(exercise):
+        return lambda: cli.main(["grade", exercise, "--course", str(course), "--jobs", "1"])
+
+    children = [faults.start(grade(exercise)) for exercise in ("scara", "second")]
+    assert [faults.ended(child) for child in children] == [0, 0]
+    scores = """select assignment.name, student_id, sum(auto_score) from grade
+        join submitted_notebook on submitted_notebook.id = grade.notebook_id
+        join submitted_assignment on submitted_assignment.id = submitted_notebook.assignment_id
+        join assignment on assignment.id = submitted_assignment.assignment_id group by 1, 2"""
+    found = {(exercise, student): score for exercise, student, score in rows(course, scores)}
+    assert {found[exercise, student] for exercise in ("scara", "second") for student in ("x", "y", "z")} == {4}
