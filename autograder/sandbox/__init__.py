@@ -1,4 +1,11 @@
-"""Runs a student's notebook where it can harm and learn nothing."""
+"""Runs a student's notebook where it can harm and learn nothing.
+
+Two things are known and left as they are. Sandboxes that run at the same time can exchange bits through locks
+(``flock``) on files of the system that both may read, and see by inotify when such a file is opened: no answer and no
+points go that way faster than by talking before the exercise. And memory and processor time are counted by looking at
+the processes every fifth of a second, not by control groups, which only root or a user with a delegated group can
+make; a sandbox can go beyond a limit by what it does in that time.
+"""
 
 from __future__ import annotations
 

@@ -236,3 +236,18 @@ def test_a_kit_that_hands_in_nothing_is_found_out(needs_sandbox, small, released
     assert "dhkit handed in nothing" in trial.find_fault([path], sandbox.Limits(), "bwrap")
     monkeypatch.setattr(sys, "executable", "/bin/false")
     assert "could not be run: the kernel did not start" in trial.find_fault([path], sandbox.Limits(), "none")
+
+
+SHELLS = 'import subprocess, time\nP = [subprocess.Popen(["/bin/sh", "-c", "while :; do :; done"], start_new_session=True) for _ in range(30)]'
+
+
+@pytest.mark.slow
+def test_busy_shells_cost_an_honest_neighbour_nothing(graded, small, course_copy, released):
+    work = "import time\nend = time.process_time() + 1.5\nwhile time.process_time() < end: pass\n"
+    honest = small.answered(released, d2_sign=f"{work}d2_sign = 'B'", T04=work + small.T04)
+    hostile = small.answered(released, T04=SHELLS, d2_sign="time.sleep(10**6)", forward="time.sleep(10**6)")
+    small.hand_in(course_copy, "ann", honest)
+    small.hand_in(course_copy, "eve", hostile)
+    code, results, _ = graded("--cell-seconds", "4", "--notebook-seconds", "12", jobs=2)
+    assert code == 0 and results["ann"]["score"] == 20
+    assert results["eve"]["score"] == 0
