@@ -40,7 +40,7 @@ def as_html(report: ClassReport) -> str:
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
     environment.filters |= {
-        "written": lambda answer: written(answer.value),
+        "written": written,
         "students": _students,
         "percent": lambda share: f"{share:.0%}",
     }
