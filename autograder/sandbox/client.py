@@ -16,7 +16,7 @@ from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionComplete
 from nbformat import NotebookNode
 
-from .clock import LOAD_FACTOR, Spent, TimeUp, time_up
+from .clock import Spent, TimeUp, is_over, time_up
 from .kernelspec import SandboxKernelSpecs
 from .limits import Limits
 from .messages import MalformedMessage, Message, as_text, decode, output_content
@@ -75,8 +75,8 @@ class _Progress:
         What its outputs may add up to, and where it is stopped, in bytes.
     refused : bool
         Whether a message was left out on the way.
-    ended_at, kill_at : float
-        Seconds of the kernel's own.
+    ended_at, interrupted_at : Spent or None
+        What the kernel had spent when the first half of the cell's end came, and when it was interrupted.
     stopped : (status, message)
         Once it was interrupted.
     interrupt, interrupted : str, bool
@@ -88,10 +88,10 @@ class _Progress:
     refused: bool = False
     reply: dict[str, Any] | None = None
     idle: bool = False
-    ended_at: float | None = None
+    ended_at: Spent | None = None
     streamed: int = 0
     stopped: tuple[str, str] | None = None
-    kill_at: float = float("inf")
+    interrupted_at: Spent | None = None
     interrupt: str | None = None
     interrupted: bool = False
 
@@ -169,9 +169,7 @@ class SandboxClient(NotebookClient):
             # The first status messages may come before the subscription does: ask again until one is heard.
             if answered and not heard:
                 heard = any(channel == "iopub" for channel, _ in await self._receive(_POLL_SECONDS))
-            taken = self.provisioner.watch.spent()
-            too_long = taken.own > START_SECONDS or taken.wall > LOAD_FACTOR * START_SECONDS
-            if await self.provisioner.poll() is not None or too_long:
+            if await self.provisioner.poll() is not None or is_over(self.provisioner.watch.spent(), START_SECONDS):
                 raise KernelStartError(f"the kernel did not start: {self._last_words()}")
 
     def _last_words(self) -> str:
@@ -223,9 +221,9 @@ class SandboxClient(NotebookClient):
             if progress.stopped is None and progress.flooding:
                 progress.stopped = ("output_limit", self._too_much_output())
             if progress.stopped is not None and progress.interrupt is None:
-                progress.kill_at = watch.spent().own + _INTERRUPT_SECONDS
+                progress.interrupted_at = watch.spent()
                 progress.interrupt = self._interrupt()
-            if watch.spent().own >= progress.kill_at or (self.time_up is not None and self.time_up.starved):
+            if self._stays(progress) or (self.time_up is not None and self.time_up.starved):
                 self.lost = True
                 break
             if await self.provisioner.poll() is not None:
@@ -245,6 +243,11 @@ class SandboxClient(NotebookClient):
         self.spent += watch.spent_now() - start
         return self._result(progress, cell)
 
+    def _stays(self, progress: _Progress) -> bool:
+        """Whether a cell does not end although it was interrupted."""
+        since = progress.interrupted_at
+        return since is not None and is_over(self.provisioner.watch.spent() - since, _INTERRUPT_SECONDS)
+
     def _interrupt(self) -> str:
         """Ask the kernel to interrupt what it runs; the id of the request."""
         message = self._kernel.session.msg("interrupt_request", {})
@@ -258,10 +261,10 @@ class SandboxClient(NotebookClient):
         one, or the kernel itself in taking that one in, and it would never be answered.
         """
         watch = self.provisioner.watch
-        give_up = watch.spent().own + _INTERRUPT_SECONDS
+        start = watch.spent()
         probes: set[str] = set()
         ask_again = 0.0
-        while watch.spent().own < give_up and await self.provisioner.poll() is None:
+        while not is_over(watch.spent() - start, _INTERRUPT_SECONDS) and await self.provisioner.poll() is None:
             if progress.interrupted and time.monotonic() >= ask_again:
                 probes.add(self._kernel.kernel_info())
                 ask_again = time.monotonic() + _PROBE_SECONDS
@@ -292,10 +295,10 @@ class SandboxClient(NotebookClient):
         if progress.reply is None and not (progress.idle and progress.refused):
             progress.ended_at = None
             return False
-        own = self.provisioner.watch.spent().own
+        now = self.provisioner.watch.spent()
         if progress.ended_at is None:
-            progress.ended_at = own
-        self.lost = own > progress.ended_at + _SETTLE_SECONDS
+            progress.ended_at = now
+        self.lost = is_over(now - progress.ended_at, _SETTLE_SECONDS)
         return self.lost
 
     def _take(self, channel: str, message: Message, progress: _Progress, cell: NotebookNode, index: int) -> None:

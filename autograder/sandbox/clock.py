@@ -58,6 +58,11 @@ class Spent:
         return Spent(self.processor - other.processor, self.own - other.own, self.wall - other.wall)
 
 
+def is_over(taken: Spent, seconds: float) -> bool:
+    """Whether `seconds` of its own have gone by, or so many on the wall that nobody waits any longer."""
+    return taken.own >= seconds or taken.wall >= LOAD_FACTOR * seconds
+
+
 class FairClock:
     """Adds up what a family of processes spends, from one observation to the next.
 

@@ -10,7 +10,7 @@ import pytest
 
 from autograder import sandbox
 from autograder.sandbox import clock, watch
-from autograder.sandbox.clock import FairClock, Observation, Spent, time_up
+from autograder.sandbox.clock import LOAD_FACTOR, FairClock, Observation, Spent, is_over, time_up
 
 pytestmark = pytest.mark.sandbox
 
@@ -70,10 +70,18 @@ def test_which_bound_is_met(cell, notebook, words):
     assert up.starved == ("machine" in words)
 
 
+def test_nobody_waits_for_ever():
+    assert not is_over(Spent(own=2.9, wall=100), 3)
+    assert is_over(Spent(own=3, wall=3), 3) and is_over(Spent(own=0, wall=3 * LOAD_FACTOR), 3)
+
+
 @pytest.fixture
 def sleeper():
     process = subprocess.Popen(["sleep", "60"])
-    yield psutil.Process(process.pid)
+    found = psutil.Process(process.pid)
+    while found.name() != "sleep" or found.status() != psutil.STATUS_SLEEPING:
+        assert process.poll() is None
+    yield found
     process.kill()
     process.wait()
 
