@@ -50,6 +50,10 @@ class Renderer:
     """The process that lays out texts; started when it is first needed, and again after it was stopped."""
 
     def __init__(self) -> None:
+        self.forget()
+
+    def forget(self) -> None:
+        """Leave the process to whoever else talks to it; the next text starts another."""
         self._lock = threading.Lock()
         self._process: subprocess.Popen[bytes] | None = None
 
@@ -110,6 +114,7 @@ class Renderer:
 
 
 RENDERER = Renderer()
+os.register_at_fork(after_in_child=RENDERER.forget)  # two readers of one pipe would take each other's replies
 
 
 def _budget(context: Context | Mapping[str, Any]) -> Budget:

@@ -1,6 +1,7 @@
 """A page costs a bounded amount of work, whatever a student wrote, and is always there."""
 
 import json
+import os
 import re
 
 import nbformat
@@ -125,6 +126,18 @@ def test_a_renderer_that_was_stopped_starts_again():
     assert budget.seconds <= 0
     assert renderer.render("markdown", "*a*", Budget()) == "<p><em>a</em></p>\n"
     renderer._stop()
+
+
+def test_a_process_forked_from_a_grader_has_a_renderer_of_its_own():
+    rendering.RENDERER.render("markdown", "started", Budget())
+    children = []
+    for number in range(2):
+        if (child := os.fork()) == 0:
+            mine = [rendering.RENDERER.render("markdown", f"{number} {text}", Budget()) for text in range(20)]
+            os._exit(0 if all(f"{number} {text}" in html for text, html in enumerate(mine)) else 1)
+        children.append(child)
+    assert [os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) for child in children] == [0, 0]
+    assert "still ours" in rendering.RENDERER.render("markdown", "still ours", Budget())
 
 
 def test_a_text_that_cannot_be_laid_out_does_not_end_the_renderer():
