@@ -3,9 +3,11 @@
 import errno
 import os
 import shutil
+import signal
 import sqlite3
 import sys
 import traceback
+from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -66,6 +68,8 @@ def start(action):
     sys.stdout.flush()
     sys.stderr.flush()
     if (child := os.fork()) == 0:
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)  # in the background a shell has them ignored
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         code = 99
         try:
             code = action()
@@ -173,14 +177,20 @@ class HalfWritten:
         return getattr(self.file, name)
 
 
-@pytest.fixture(scope="session")
+@contextmanager
+def stubbed():
+    """Runs are prepared, for as long as this lasts: the process goes on to tests with real kernels."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(SandboxExecute, "run", prepared)
+        patch.setattr(SandboxExecute, "find_fault", lambda *settings: None)
+        patch.setattr("autograder.grading.plugins.autograde.available", lambda: None)
+        yield
+
+
+@pytest.fixture(autouse=True)
 def stub_runs(registry):
-    patch = pytest.MonkeyPatch()
-    patch.setattr(SandboxExecute, "run", prepared)
-    patch.setattr(SandboxExecute, "find_fault", lambda *settings: None)
-    patch.setattr("autograder.grading.plugins.autograde.available", lambda: None)
-    yield
-    patch.undo()
+    with stubbed():
+        yield
 
 
 @pytest.fixture(scope="session")
@@ -199,14 +209,15 @@ def faults(small):
 
 
 @pytest.fixture(scope="session")
-def half_graded(stub_runs, small, empty_course, released, tmp_path_factory):
+def half_graded(registry, small, empty_course, released, tmp_path_factory):
     """A class of three: `same` is graded, `old` was graded and handed in anew, `new` was never graded."""
     root = tmp_path_factory.mktemp("faults") / "course"
     shutil.copytree(empty_course, root)
     hand_in(small, root, released, "same", "right")
     hand_in(small, root, released, "old", "wrong")
     # In this process: each later one starts as a copy of it, with all templates and statements compiled.
-    assert grade(root) == 0
+    with stubbed():
+        assert grade(root) == 0
     hand_in(small, root, released, "old", "right")
     hand_in(small, root, released, "new", "right")
     return root
@@ -233,5 +244,6 @@ def right(half_graded, tmp_path_factory):
         names.write_text("\n".join(steps.names))
         return code
 
-    assert run(action) == 0
+    with stubbed():
+        assert run(action) == 0
     return SimpleNamespace(entries=entries(root), files=files_below(root), steps=names.read_text().splitlines())
