@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -39,24 +39,38 @@ def judge_results(question: Question, arguments: list[list], results: Sequence[D
 
         return nearest(beside(other) for other in expected.forms)
 
-    cases: dict[str, list[Comparison]] = {}
+    cases: dict[str, list[tuple[list, Comparison]]] = {}
     for args, result in calls:
-        cases.setdefault(question.case(*args), []).append(compare((), 2 * np.pi, args, result))
-    wrong = tuple(
-        _describe(case, compared) for case, compared in cases.items() if not all(one.equal for one in compared)
-    )
+        cases.setdefault(question.case(*args), []).append((args, compare((), 2 * np.pi, args, result)))
+    wrong = {case for case, asked in cases.items() if not all(compared.equal for _, compared in asked)}
+    answers = {
+        case: {repr(expect_result(question, (), student, args).forms) for args, _ in asked}
+        for case, asked in cases.items()
+        if case not in wrong
+    }
+    remarks = tuple(_describe(case, [compared for _, compared in cases[case]]) for case in cases if case in wrong)
+    against_reference = Comparison(not wrong, _count(answers.values()) / len(cases), remarks)
     verdict = walk(
         question,
         student,
-        Comparison(not wrong, 1 - len(wrong) / len(cases), wrong),
+        against_reference,
         lambda ways, turn: all(compare(ways, turn, *call).equal for call in calls),
     )
-    # A constant is right now and then: "no solution" wherever there is none. It shows no understanding of any case.
-    if verdict.share > 0 and wrong and len(set(results)) == 1:
-        return Verdict(
-            0.0, "nothing_matched", "**Not right.** Your function returns the same for all arguments that were tried."
+    if verdict.note == "nothing_matched" and len(set(results)) == 1:
+        return replace(
+            verdict, feedback="**Not right.** Your function returns the same for all arguments that were tried."
         )
     return verdict
+
+
+def _count(answers: Iterable[set[str]]) -> int:
+    """How many of the cases that are right show something; `answers` are the different right answers of each.
+
+    A constant is right now and then, "no solution" wherever there is none: it is right for cases that all have this one
+    answer, and they count only beside a case that has another.
+    """
+    answers = list(answers)
+    return len(answers) if len(set().union(*answers)) > 1 else 0
 
 
 def _describe(case: str, compared: list[Comparison]) -> str:

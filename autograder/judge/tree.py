@@ -21,20 +21,24 @@ IMPOSSIBLE = (ArithmeticError, AttributeError, IndexError, KeyError, TypeError, 
 
 @dataclass(frozen=True)
 class Verdict:
-    """Share of the points (0 to 1), answer note (a stable key) and feedback (Markdown)."""
+    """Share of the points (0 to 1), answer note (a stable key) and feedback (Markdown).
+
+    `slip`: without a name for it, all but one row or entry is right.
+    """
 
     share: float
     note: str
     feedback: str
+    slip: bool = False
 
 
 def is_forgivable(verdict: Verdict) -> bool:
     """Whether what follows from an answer may earn points although the answer is wrong.
 
-    The mistake has a name, or most of the answer is right: from a guess, or from a table of zeros, everything and
-    nothing follows.
+    The mistake has a name, or stands in one row or entry: from a guess, or from rows that happen to be right,
+    everything and nothing follows.
     """
-    return verdict.share >= 0.5 or (verdict.share > 0 and verdict.note not in UNEXPLAINED)
+    return verdict.share > 0 and (verdict.note not in UNEXPLAINED or verdict.slip)
 
 
 def walk(question: Question, student: str, against_reference: Comparison, matches: Matches) -> Verdict:
@@ -67,7 +71,8 @@ def walk(question: Question, student: str, against_reference: Comparison, matche
     share = min(question.partial, against_reference.share)
     what = "; ".join(against_reference.remarks) or "the answer differs from the right one"
     note = against_reference.note or ("partly_right" if share > 0 else "nothing_matched")
-    return Verdict(share, note, f"**{'Partly right' if share > 0 else 'Not right'}.** {what[0].upper()}{what[1:]}.")
+    feedback = f"**{'Partly right' if share > 0 else 'Not right'}.** {what[0].upper()}{what[1:]}."
+    return Verdict(share, note, feedback, against_reference.slip)
 
 
 def nearest(comparisons: Iterable[Comparison]) -> Comparison:

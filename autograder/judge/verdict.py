@@ -17,6 +17,7 @@ from .decode import Decoded, Failure, Malformed, decode_answer, decode_probes, d
 from .expected import expect_answer
 from .kinds import Comparison, Entries, Setting, read
 from .kinds import compare as compare_answers
+from .kinds.entries import depends_on
 from .probing import judge_results
 from .question import Question, Way
 from .tree import Verdict, nearest, walk
@@ -139,14 +140,23 @@ def _judge_data(question: Question, decoded: Decoded, student: str, earlier: Map
         return nearest(compare_answers(form, answer, other, asked) for other in expected.forms)
 
     against_reference = compare((), setting.turn)
-    if not against_reference.equal and _follows(question, answer, setting, earlier):
+    if not against_reference.equal and _follows(question, answer, setting, student, earlier):
         return Verdict(1.0, "right_from_earlier", FORGIVEN)
     return walk(question, student, against_reference, lambda ways, turn: compare(ways, turn).equal)
 
 
-def _follows(question: Question, answer: object, setting: Setting, earlier: Mapping[str, Evidence]) -> bool:
-    """Whether the answer is what follows from the student's own answer to the earlier question."""
+def _follows(
+    question: Question, answer: Entries, setting: Setting, student: str, earlier: Mapping[str, Evidence]
+) -> bool:
+    """Whether the answer is what follows from the student's own answer to the earlier question.
+
+    It must depend on all that the right one depends on: where a length or a joint got lost on the way, there is less to
+    do than was asked for.
+    """
     if question.follows is None or question.follows.earlier not in earlier:
+        return False
+    (right,) = expect_answer(question, (), student).forms
+    if not depends_on(right, setting.samples) <= depends_on(answer, setting.samples):
         return False
     before = public.find(question.follows.earlier)
     try:

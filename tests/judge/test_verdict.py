@@ -139,7 +139,7 @@ def hand(rows):
 
 
 def test_the_right_product_of_a_wrong_table_earns_the_points_of_the_product():
-    wrong = [ROWS[0], [0, a3, 0.3, 0, t2 + 1], *ROWS[2:]]
+    wrong = [ROWS[0], [0, a2 + a3, 0.3, 0, t2 + 1], *ROWS[2:]]
     before = {"scara.table": evidence("scara.table", wrong)}
     assert judged(find("scara.table"), wrong).share < 1
     product = hand(wrong)
@@ -151,8 +151,15 @@ def test_the_right_product_of_a_wrong_table_earns_the_points_of_the_product():
     assert judged(find("scara.model"), model).share < 1
 
 
+def test_where_a_length_got_lost_nothing_follows():
+    wrong = [ROWS[0], [0, 0, 0, 0, t2], *ROWS[2:]]
+    before = {"scara.table": evidence("scara.table", wrong)}
+    assert is_forgivable(judged(find("scara.table"), wrong))
+    assert judged(find("scara.T04"), hand(wrong), earlier=before).note != "right_from_earlier"
+
+
 def test_another_product_than_that_of_the_table_is_still_wrong():
-    wrong = [ROWS[0], [0, a3, 0.3, 0, t2 + 1], *ROWS[2:]]
+    wrong = [ROWS[0], [0, a2 + a3, 0.3, 0, t2 + 1], *ROWS[2:]]
     product = hand(wrong)
     product[0, 3] += a2 / 10
     found = judged(find("scara.T04"), product, earlier={"scara.table": evidence("scara.table", wrong)})
@@ -171,14 +178,16 @@ def test_the_product_of_a_table_follows_from_its_values():
         assert np.allclose(found, np.array(hand(row.tolist()), dtype=float))
 
 
-def test_only_a_named_or_mostly_right_answer_is_forgiven_later():
+def test_only_a_named_mistake_or_one_slip_is_forgiven_later():
     """From a table of zeros follows the identity: a guess must not earn the points of the product."""
     table = find("scara.table")
     named = next(node for node in table.mistakes if node.note == "classic_table")
     assert is_forgivable(judged(table, ROWS))
     assert is_forgivable(judged(table, table.answer(ADA, *named.ways[:1])))
     assert is_forgivable(judged(table, [[0, 0, 0, 0, t1], [0, 3 * a2, 0, 0, t2], *ROWS[2:]]))
-    for guess in ([[0] * 5] * 4, [ROWS[0], *[[0] * 5] * 3], ..., "text"):
+    assert is_forgivable(judged(table, [ROWS[0], [0, a2, 0.3, a3, t2], *ROWS[2:]]))
+    joints_only = [[0, 0, 0, 0, joint] for joint in (t1, t2, d2, t4)]
+    for guess in ([[0] * 5] * 4, [ROWS[0], *[[0] * 5] * 3], joints_only, ..., "text"):
         assert not is_forgivable(judged(table, guess))
 
 
@@ -287,6 +296,15 @@ def test_a_cloud_is_judged_by_what_it_covers_and_what_it_has_outside():
     for odd in ([[0, 0, 0]], [[0, np.nan]], [[0, 1j]], [[0, "a"]], [[t1, 0]], np.zeros((6000, 2))):
         assert judged(question, odd).note == "malformed"
     assert judged(question, np.zeros((1, 2))).share == 0
+
+
+def test_points_outside_are_not_outweighed_by_many_at_sure_places():
+    question = Question("arm.cloud", reference=ring(0.5, 1), tolerance=0.08)
+    honest, sure = judged(question, ring(0.2, 1, 700)), [[0.75, 0.0]]
+    assert honest.share < 1
+    for much in (np.repeat(sure, 4000, axis=0), sure + np.random.default_rng(1).normal(0, 0.02, (4000, 2))):
+        diluted = judged(question, np.vstack([ring(0.2, 1, 700), much]))
+        assert diluted.share == pytest.approx(honest.share, abs=0.02), diluted
 
 
 def test_the_error_of_a_transform_is_told_in_degrees_and_metres():

@@ -13,13 +13,15 @@ import numpy as np
 class Comparison:
     """How two answers compare: equal or not, the share of parts that agree, and what differs, in words.
 
-    `note` is the answer note of a difference that has a name of its own.
+    `note` is the answer note of a difference that has a name of its own; `slip` says that all but one row, or one entry,
+    agree.
     """
 
     equal: bool
     share: float
     remarks: tuple[str, ...] = ()
     note: str = ""
+    slip: bool = False
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from dhkit.forms.dh_table import DH_COLUMNS, DHTable
@@ -30,7 +32,7 @@ def compare(form: DHTable, student: Entries, other: Entries, setting: Setting) -
     if match.parting:
         where = f"joint {match.parting.joint}: {match.parting.quantity} differs"
         remarks = cells.remarks if cells.note else (where,)
-        return Comparison(False, cells.share, remarks, cells.note)
+        return replace(cells, remarks=remarks)
     return Comparison(False, 1.0, match.remarks, "same_chain_other_frames")
 
 
@@ -63,6 +65,6 @@ def _compare_cells(student: Entries, other: Entries, setting: Setting) -> Compar
     )
     if (~agree).sum() == 1:
         remarks = (f"only one cell differs, {remarks[0].replace(':', ', column')}",)
-    return Comparison(
-        bool(agree.all()), float(agree.all(axis=1).mean()), remarks, "one_cell" if (~agree).sum() == 1 else ""
-    )
+    right = agree.all(axis=1)
+    note = "one_cell" if (~agree).sum() == 1 else ""
+    return Comparison(bool(right.all()), float(right.mean()), remarks, note, slip=int((~right).sum()) == 1)

@@ -86,6 +86,17 @@ def _constant(expression: Expression) -> float:
     return float(evaluate(expression, {})[0].real)
 
 
+def depends_on(entries: Entries, samples: Mapping[str, np.ndarray]) -> set[str]:
+    """The symbols that change some value when they change."""
+    here = Entries(entries.expressions).values(samples)
+
+    def acts(name: str) -> bool:
+        there = Entries(entries.expressions).values({**samples, name: samples[name] + 0.37})
+        return not np.allclose(here, there, rtol=1e-6, atol=1e-6, equal_nan=True)
+
+    return {name for name in samples if acts(name)}
+
+
 def agreement(student: Entries, other: Entries, setting: Setting, angles: Sequence[bool] | np.ndarray) -> np.ndarray:
     """Which of m entries agree at every sample point, (m,) booleans; where `angles` says so, modulo 2 pi."""
     theirs, ours = student.values(setting.samples), other.values(setting.samples)

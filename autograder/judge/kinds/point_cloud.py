@@ -23,14 +23,29 @@ def read(form: PointCloud, value: Value) -> np.ndarray:
 
 
 def compare(form: PointCloud, student: np.ndarray, other: np.ndarray, setting: Setting) -> Comparison:
-    """Coverage: points of `other` that have one of the student's within the tolerance. Excess: the other way round."""
-    covered, inside = (_near(a, b, setting.tolerance) for a, b in ((other, student), (student, other)))
+    """Coverage: points of `other` that have one of the student's within the tolerance. Excess: the other way round.
+
+    Places count, not points: what lies outside is not outweighed by many points where the robot can surely be.
+    """
+    places = _apart(student, setting.tolerance / 2)
+    covered, inside = (_near(a, b, setting.tolerance) for a, b in ((other, student), (places, other)))
     remarks = []
     if covered < ENOUGH:
         remarks.append(f"the cloud covers {covered:.0%} of the region")
     if inside < ENOUGH:
         remarks.append(f"{1 - inside:.0%} of its points lie where the robot cannot be")
     return Comparison(not remarks, min(covered, inside), tuple(remarks))
+
+
+def _apart(points: np.ndarray, distance: float) -> np.ndarray:
+    """Some of the points, none of them nearer to another one than `distance`, and each of the others near to one of them."""
+    # One point of every small cell will do; what is left is sparse enough to be gone through one by one.
+    _, first = np.unique(np.floor(points / (distance / 2)), axis=0, return_index=True)
+    points = points[np.sort(first)]
+    taken, neighbours = np.zeros(len(points), bool), cKDTree(points).query_ball_point(points, distance)
+    for i, near in enumerate(neighbours):
+        taken[i] = not taken[near].any()
+    return points[taken]
 
 
 def _near(points: np.ndarray, others: np.ndarray, tolerance: float) -> float:

@@ -35,7 +35,7 @@ def compare(form: Transform, student: Entries, other: Entries, setting: Setting)
     remarks += [f"the {name} is right" for name, right in zip(("rotation", "position"), blocks, strict=True) if right]
     if not agree[-1].all():
         remarks.append("the last row of a transform is 0 ... 0 1")
-    return Comparison(False, share, tuple(remarks))
+    return Comparison(False, share, tuple(remarks), slip=int((~agree).sum()) == 1)
 
 
 def _rotation_error(theirs: np.ndarray, ours: np.ndarray, where: str) -> str:
