@@ -133,6 +133,8 @@ class Question:
         Tried in order when the answer is not right; the first that matches decides.
     partial : float
         Largest share that right parts of an otherwise unrecognised answer can earn.
+    position_share : float
+        Share of the position among the parts of a transform; 0 where the statement gives it.
     angles : tuple of int
         Entries compared modulo 2 pi (vector entries or joints; ``(0,)`` for a single expression).
     tolerance : float
@@ -158,6 +160,7 @@ class Question:
     reference: Answer
     mistakes: tuple[Mistake, ...] = ()
     partial: float = 0.5
+    position_share: float = 0.5
     angles: tuple[int, ...] = ()
     tolerance: float = 1e-6
     pinned: frozenset[str] = SAME_MODEL
@@ -249,7 +252,14 @@ class Question:
         if self.residual is not None and student is not None:
             own = _with_own(self.residual, self.numbers(student))
             residual = lambda q: own(q, *args)  # noqa: E731
-        return Setting(self.samples, self.angles, self.tolerance, self.pinned, residual=residual)
+        return Setting(
+            self.samples,
+            self.angles,
+            self.tolerance,
+            self.pinned,
+            residual=residual,
+            position_share=self.position_share,
+        )
 
 
 def take(steps: Sequence[Step], answer: Answer) -> Answer:

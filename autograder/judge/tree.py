@@ -58,7 +58,7 @@ def walk(question: Question, student: str, against_reference: Comparison, matche
     for node in question.mistakes:
         if any(_is_match(matches, (way,), node.turn) for way in node.ways):
             return Verdict(node.share, node.note, _fill_in(node.feedback, numbers))
-    for pair in permutations(range(len(question.mistakes)), 2):
+    for pair in permutations(range(_pairable(question)), 2):
         first, second = (question.mistakes[place] for place in pair)
         turn = max(first.turn, second.turn)
         ways = product(first.ways, second.ways)
@@ -73,6 +73,11 @@ def walk(question: Question, student: str, against_reference: Comparison, matche
     note = against_reference.note or ("partly_right" if share > 0 else "nothing_matched")
     feedback = f"**{'Partly right' if share > 0 else 'Not right'}.** {what[0].upper()}{what[1:]}."
     return Verdict(share, note, feedback, against_reference.slip)
+
+
+def _pairable(question: Question) -> int:
+    """How many of the mistakes may meet another one: none where the answer is one number, which two may give by chance."""
+    return 0 if question.form.kind == "number" else len(question.mistakes)
 
 
 def nearest(comparisons: Iterable[Comparison]) -> Comparison:

@@ -13,6 +13,7 @@ from dhkit.forms import Form
 from dhkit.nodes import is_blank
 from dhkit.variants import NOBODY
 
+from .blind import beyond_guessing
 from .decode import Decoded, Failure, Malformed, decode_answer, decode_probes, decode_student
 from .expected import expect_answer
 from .kinds import Comparison, Entries, Setting, read
@@ -135,18 +136,21 @@ def _judge_data(question: Question, decoded: Decoded, student: str, earlier: Map
     answer = read(form, decoded)
 
     def compare(ways: tuple[Way, ...], turn: float) -> Comparison:
+        if ways and not np.size(answer):
+            return Comparison(False, 0.0)  # no solution at all is what no mistake leaves of some
         expected = expect_answer(question, ways, student)
         asked = replace(setting, turn=turn, family=expected.family, patient=not ways)
         return nearest(compare_answers(form, answer, other, asked) for other in expected.forms)
 
     against_reference = compare((), setting.turn)
+    against_reference = replace(against_reference, share=beyond_guessing(question, student, against_reference))
     if not against_reference.equal and _follows(question, answer, setting, student, earlier):
         return Verdict(1.0, "right_from_earlier", FORGIVEN)
     return walk(question, student, against_reference, lambda ways, turn: compare(ways, turn).equal)
 
 
 def _follows(
-    question: Question, answer: Entries, setting: Setting, student: str, earlier: Mapping[str, Evidence]
+    question: Question, answer: object, setting: Setting, student: str, earlier: Mapping[str, Evidence]
 ) -> bool:
     """Whether the answer is what follows from the student's own answer to the earlier question.
 
@@ -156,6 +160,8 @@ def _follows(
     if question.follows is None or question.follows.earlier not in earlier:
         return False
     (right,) = expect_answer(question, (), student).forms
+    if not isinstance(answer, Entries) or not isinstance(right, Entries):
+        return False
     if not depends_on(right, setting.samples) <= depends_on(answer, setting.samples):
         return False
     before = public.find(question.follows.earlier)

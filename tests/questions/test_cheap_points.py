@@ -100,3 +100,84 @@ def test_a_constant_that_differs_at_one_call_earns_nothing(question):
 def right_at_first(question):
     result = question.answer(STUDENT)(*question.probes(STUDENT, 7)[0])
     return getattr(result, "solutions", result)
+
+
+# ---------------------------------------------------------------- blind guesses
+
+# Where a guess earns more than a tenth, and why.
+PARTLY_RIGHT = {
+    "transforms.operators: the symbols as listed": 0.2,  # the order of a table, which is a misconception with a name
+}
+
+
+def guesses(question):
+    """Answers made without reading more than the form that is asked for."""
+    form = question.form if question.form.kind != "function" else question.returns
+    if form.kind == "choice":
+        yield "first choice", "A"
+    elif form.kind == "joint_solutions":
+        yield from (("none", []), ("zeros", [[0.0] * len(form.joints)]))
+    elif form.kind == "point_cloud":
+        yield "a square", [[x, y] for x in np.linspace(-1, 1, 60) for y in np.linspace(-1, 1, 60)]
+    else:
+        yield from ((f"all {number}", np.full(form.shape, number)) for number in (0, 1, 2, 3, 4, 8, -1))
+        symbols = sympy.symbols(form.symbols)
+        if len(form.shape) > 1:
+            *_, rows, columns = form.shape
+            if rows == columns:
+                yield "identity", np.broadcast_to(np.eye(rows), form.shape)
+            joints = [
+                *(sympy.symbols(getattr(form, "joints", ())) or [s for s in symbols if str(s)[0] in "tqr"]),
+                *[0] * 9,
+            ]
+            yield (
+                "theta = q",
+                np.broadcast_to(
+                    np.array([[0] * (columns - 1) + [joint] for joint in joints[:rows]], dtype=object), form.shape
+                ),
+            )
+        elif len(form.shape) == 1 and symbols:
+            yield "the symbols as listed", (symbols * 9)[: form.shape[0]]
+        elif symbols:
+            yield from ((f"{symbol} alone", symbol) for symbol in symbols)
+
+
+@pytest.mark.parametrize("question", QUESTIONS, ids=ids(QUESTIONS))
+def test_a_blind_guess_earns_nothing(question):
+    for name, guess in guesses(question):
+        guess = guess.tolist() if isinstance(guess, np.ndarray) else guess
+        answer = (lambda *args, guess=guess: guess) if question.form.kind == "function" else guess
+        assert verdict(question, answer).share <= PARTLY_RIGHT.get(f"{question.id}: {name}", 0.1), name
+
+
+# ---------------------------------------------------------------- right parts of wrong answers
+
+
+def filled(answer, value, *places):
+    """An answer of numbers or symbols with another value at some places."""
+    changed = np.array(answer, dtype=object)
+    for place in places:
+        changed[place] = value
+    return changed.tolist()
+
+
+IDENTITY = np.eye(4, dtype=int).tolist()
+PARTS = [
+    ("direct_models.K", "five of six", lambda K: [*K[:4], IDENTITY, K[5]], 0.7),
+    ("direct_models.K", "turns without their centres", lambda K: [[[*row[:3], int(i == 3)] for i, row in enumerate(M)] for M in K], 1 / 3),
+    ("direct_models.K", "in reverse order", lambda K: K[::-1], 0),
+    ("direct_models.wrong_cells", "one false alarm", lambda marks: filled(marks, 1, (2, 1, 1)), 0.7),
+    ("direct_models.wrong_cells", "three of eight found", lambda marks: [marks[0], *filled(marks, 0, 1, 2)[1:]], 3 / 8),
+    ("direct_models.wrong_cells", "three of eight found, two false alarms", lambda marks: filled([marks[0], *filled(marks, 0, 1, 2)[1:]], 1, (2, 1, 1), (1, 0, 0)), 1 / 8),
+    ("direct_models.wrong_cells", "everything marked", lambda marks: np.ones((3, 4, 4)), 0),
+    ("parameters.gripper", "the position of the statement alone", lambda T: filled(T, np.eye(3)[[1, 2, 0]], np.s_[:3, :3]), 0),
+    ("parameters.gripper", "the rotation alone", lambda T: filled(T, 0.123, np.s_[:3, 3]), 0.5),
+    ("scara.table", "row 2 wrong", lambda rows: filled(rows, 0.7, (1, 1), (1, 3)), 0.6),
+    ("scara.table", "rows 2 and 3 wrong", lambda rows: filled(rows, 0.7, (1, 1), (2, 2)), 0),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("id", "what", "change", "share"), PARTS, ids=[f"{id}: {what}" for id, what, *_ in PARTS])
+def test_right_parts_earn_what_a_guess_does_not(id, what, change, share):
+    found = verdict(find(id), change(right(find(id))))
+    assert found.note in ("partly_right", "nothing_matched") and found.share == pytest.approx(share), found

@@ -46,6 +46,8 @@ class Setting:
         where rounding must not fail a right answer.
     residual : callable, optional
         How far joint solutions (k, n) are from the target, (k,), in metres and radians.
+    position_share : float
+        Share of the position among the parts of a transform.
     family : bool
         Infinitely many solutions: every one that does not miss the target is right.
     """
@@ -57,6 +59,7 @@ class Setting:
     turn: float = 2 * np.pi
     patient: bool = False
     residual: Callable[[np.ndarray], np.ndarray] | None = None
+    position_share: float = 0.5
     family: bool = False
 
 

@@ -14,6 +14,7 @@ __all__ = ["compare", "read"]
 
 
 def compare(form: Matrix, student: Entries, other: Entries, setting: Setting) -> Comparison:
-    """Cell by cell."""
+    """Cell by cell; of a list of symbolic matrices only those count as right that are so in all cells."""
     agree = agreement(student, other, setting, np.zeros(len(student.expressions))).reshape(form.shape)
-    return Comparison(bool(agree.all()), float(agree.mean()), differing_cells(agree))
+    parts = agree.all(axis=(1, 2)) if agree.ndim == 3 and form.symbols else agree
+    return Comparison(bool(agree.all()), float(parts.mean()), differing_cells(agree))

@@ -34,7 +34,9 @@ def compare(form: PointCloud, student: np.ndarray, other: np.ndarray, setting: S
         remarks.append(f"the cloud covers {covered:.0%} of the region")
     if inside < ENOUGH:
         remarks.append(f"{1 - inside:.0%} of its points lie where the robot cannot be")
-    return Comparison(not remarks, min(covered, inside), tuple(remarks))
+    # What lies outside is measured by the region, like what is covered of it.
+    outside = (1 - inside) / inside if inside else 1.0
+    return Comparison(not remarks, max(0.0, covered - outside), tuple(remarks))
 
 
 def _apart(points: np.ndarray, distance: float) -> np.ndarray:

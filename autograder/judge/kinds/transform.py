@@ -15,10 +15,11 @@ __all__ = ["compare", "read"]
 
 
 def compare(form: Transform, student: Entries, other: Entries, setting: Setting) -> Comparison:
-    """Block by block: half the share for the rotation, half for the position; errors in degrees and metres."""
+    """Block by block, rotation and position; errors in degrees and metres."""
     agree = agreement(student, other, setting, np.zeros(len(student.expressions))).reshape(form.shape)
     blocks = agree[:-1, :-1].all(), agree[:-1, -1].all()
-    share = (sum(map(float, blocks)) / 2) if agree[-1].all() else 0.25 * sum(map(float, blocks))
+    share = float(np.dot(blocks, (1 - setting.position_share, setting.position_share)))
+    share = share if agree[-1].all() else share / 2
     if agree.all():
         return Comparison(True, 1.0)
     where = " at the values tried" if form.symbols else ""

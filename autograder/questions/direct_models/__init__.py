@@ -172,8 +172,7 @@ QUESTIONS = (
                 turn_backwards,
             ),
         ),
-        # Most cells are 0 or 1 whatever the centres are: right cells alone say little.
-        partial=0.2,
+        partial=0.7,
     ),
     Question(
         "direct_models.wrist",
@@ -275,8 +274,7 @@ QUESTIONS = (
                 lambda marks: (1 - np.array(marks)).tolist(),
             ),
         ),
-        # Most cells are right on the slide: a sheet without a mark has most of its cells right, too.
-        partial=0.0,
+        partial=0.7,
     ),
     Question(
         "direct_models.U2",

@@ -258,8 +258,15 @@ QUESTIONS = (
     ),
     Question(
         "orientation.wrist",
-        reference=lambda mine: wrist_angles(mine.wrist),
+        reference=lambda mine, axes="own": wrist_angles(mine.wrist if axes == "own" else axes),
         mistakes=(
+            mistake(
+                "sign_of_the_root_missing",
+                0.6,
+                "**e is missing: these are the angles for e = +1 only.** The middle angle comes from a square root, and both its signs give "
+                "a solution. Where does e enter, and in which of the three angles?",
+                substitute({e: 1}),
+            ),
             misprint(
                 lambda answer: [answer[0].subs(e, 1), answer[1], answer[2].subs(e, 1)],
                 "the outer angles come from pairs that carry the root as a factor. Put the angles for e = -1 back into the matrix.",
@@ -288,6 +295,13 @@ QUESTIONS = (
                 0.4,
                 "**Rows and columns are exchanged.** These are the angles of the transposed matrix: r12 stands in row 1, column 2.",
                 substitute(TRANSPOSED),
+            ),
+            mistake(
+                "another_wrist",
+                0.2,
+                "**These are the angles of another wrist.** The lecture's formulas hold for its own letters; yours are {wrist}. Write out the "
+                "product of your three turns, and look for the entries that hold one angle, or two.",
+                wrong=[{"axes": "zyz"}, {"axes": "zyx"}],
             ),
         ),
         partial=0.6,

@@ -256,6 +256,7 @@ QUESTIONS = (
                 wrong={"unit": 1.0},
             ),
         ),
+        position_share=0.0,
         tolerance=1e-3,
     ),
     Question(

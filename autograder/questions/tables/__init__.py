@@ -40,7 +40,7 @@ QUESTIONS = (
         mistakes=(
             mistake(
                 "headers_believed",
-                0.2,
+                0.1,
                 "**These are the headers.** All five claim the modified convention; two of them head classic rows, and one a mixture. "
                 "Build each robot as its header says, and look at it.",
                 lambda _: [MODIFIED] * 5,

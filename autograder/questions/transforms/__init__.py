@@ -96,14 +96,14 @@ QUESTIONS = (
             ),
             mistake(
                 "rotations_commute",
-                0.4,
+                0.3,
                 "**Turns about two different axes do not commute.** Turn a book by a quarter about its long edge, then about its "
                 "spine; now the other way round.",
                 replace_entry(4, 1),
             ),
             mistake(
                 "translation_and_rotation_commute",
-                0.4,
+                0.3,
                 "**A turn changes the direction in which a later shift goes**, unless it turns about that very direction.",
                 replace_entry(2, 1),
                 replace_entry(3, 1),
@@ -129,7 +129,7 @@ QUESTIONS = (
             ),
             mistake(
                 "order_of_the_table",
-                0.4,
+                0.2,
                 "**These are the parameters in the order of a table.** The slide turns before it shifts: R, D, R, D.",
                 lambda found: [found[1], found[0], found[3], found[2]],
             ),

@@ -95,6 +95,13 @@ QUESTIONS = (
                 "**The forearm is drawn as if theta2 were measured from the x axis.** It goes from the upper arm to the forearm.",
                 wrong={"shape": "absolute"},
             ),
+            mistake(
+                "stops_ignored",
+                0.1,
+                "**These are the points of an arm without stops.** Each joint has a range of its own: joint 1 goes from {t1_min} to {t1_max} "
+                "degrees.",
+                wrong=[{"ranges": "full"}, {"ranges": "disc"}],
+            ),
         ),
         tolerance=0.04,
     ),

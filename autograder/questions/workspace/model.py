@@ -43,12 +43,17 @@ def cloud(mine, shape="grid", ranges="own") -> list[list[float]]:
     """Points [x, y] of the workspace.
 
     `shape` may be ``"diagonal"``, both joints in step, or ``"absolute"``, both angles counted from the x axis; `ranges`
-    may be ``"exchanged"``.
+    may be ``"exchanged"``, or those of ``"full"`` turns, or all that is no further away than the stretched arm, a ``"disc"``.
     """
     arm = own_arm(mine)
     if ranges == "exchanged":
         arm = replace(arm, q1=arm.q2, q2=arm.q1)
-    q1, q2 = np.linspace(*arm.q1, 60), np.linspace(*arm.q2, 24)
+    elif ranges != "own":
+        reach = arm.l1 + arm.l2
+        lengths = (arm.l1, arm.l2) if ranges == "full" else (reach / 2, reach / 2)
+        arm = RRArm(*lengths, q2=(0, np.pi))
+    wide = arm.q1[1] - arm.q1[0] >= 2 * np.pi
+    q1, q2 = np.linspace(*arm.q1, 120 if wide else 60), np.linspace(*arm.q2, 40 if wide else 24)
     if shape == "diagonal":
         together = np.stack([np.linspace(*limits, 400) for limits in (arm.q1, arm.q2)], axis=-1)
         points = planar_points((arm.l1, arm.l2), together)
