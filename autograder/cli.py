@@ -140,6 +140,23 @@ def _parser() -> argparse.ArgumentParser:
     )
     release.add_argument("exercise", nargs="*", help="exercises to release (default: all)")
 
+    collect = command(
+        "collect",
+        _collect,
+        "Put what Moodle, Canvas or a zip holds into submitted/, and say of everybody what became of it.",
+        "autograder collect scara ~/Downloads/robots-scara-4711.zip",
+    )
+    collect.add_argument("exercise")
+    collect.add_argument(
+        "download",
+        nargs="+",
+        metavar="ZIP",
+        help="the platform's download (a folder if it is unpacked); with a .csv, Moodle's grading worksheet of the assignment",
+    )
+    collect.add_argument(
+        "--force", action="store_true", help="also replace files that were put into submitted/ by hand"
+    )
+
     grade = command(
         "grade",
         _grade,
@@ -214,10 +231,26 @@ def _release(options) -> int:
     return 0
 
 
+def _collect(options) -> int:
+    from pathlib import Path
+
+    from autograder.grading.collecting.collect import collect
+    from autograder.grading.table import collect_table
+
+    given = [Path(name).absolute() for name in options.download]
+    course = _course(options)
+    worksheets = [path for path in given if path.suffix.lower() == ".csv"]
+    downloads = [path for path in given if path not in worksheets]
+    rows = collect(course, options.exercise, downloads, worksheets, options.force)
+    collect_table(rows)
+    return int(any(row.status == "nobody's" and row.remarks for row in rows))
+
+
 def _grade(options) -> int:
     from traitlets.config import Config
 
     from autograder.grading.pipeline import grade
+    from autograder.grading.results import without_notebook
     from autograder.grading.table import class_table, progress_bar, summary
 
     given = {limit.name: getattr(options, limit.name) for limit in fields(Limits)} | {"mode": options.sandbox}
@@ -231,6 +264,7 @@ def _grade(options) -> int:
     for exercise, students in submissions.items():
         with progress_bar(exercise, len(students)) as progress:
             results += grade(course, exercise, students, jobs, options.force, progress)
+        results += without_notebook(course, exercise) if not options.student else []
     if options.json:
         for result in results:
             print(json.dumps(result.as_json()))

@@ -1,6 +1,8 @@
 """From what students hand in to a gradebook, notes and feedback: nbgrader plug-ins and the class pipeline.
 
 errors, cells  what went wrong, in words; ids and records of cells
+roster         students.csv: who is in the course; worksheets: tables that platforms give out and take back
+collecting/    from a platform's download to the folders of students
 entries        what a verdict is in nbgrader's gradebook: a score and a comment
 inert          makes what a student wrote harmless to look at
 submission/    opens a submission strictly, restores it, runs it in the sandbox

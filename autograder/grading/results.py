@@ -9,6 +9,7 @@ from pathlib import Path
 import nbformat
 
 from .cells import answer_id, check_cells, check_record, notebook_record, question_id
+from .collecting.receipts import read_receipts, receipts_folder
 from .course import Course
 from .entries import note_of
 from .inert import terminal_text
@@ -38,7 +39,8 @@ class Result:
     Attributes
     ----------
     status : str
-        ``"graded"``, ``"unchanged"`` (graded before and not handed in again) or ``"failed"`` (could not be judged).
+        ``"graded"``, ``"unchanged"`` (graded before and not handed in again), ``"failed"`` (could not be judged) or
+        ``"no notebook"`` (something else was handed in).
     remarks : tuple of str
         What was wrong with the notebook as a whole, in words that can be forwarded.
     feedback : str or None
@@ -59,7 +61,7 @@ class Result:
         return "; ".join((*self._notes(), *self.remarks))
 
     def _notes(self) -> list[str]:
-        if self.status == "failed":
+        if self.status in ("failed", "no notebook"):
             return []
         if len(self.answers) > 1 and len({answer.note for answer in self.answers}) == 1:
             note = self.answers[0].note
@@ -122,6 +124,16 @@ def read_result(
         remarks=tuple(remark for nb in notebooks for remark in notebook_record(nb).remarks()),
         feedback=str(pages[0]) if pages else None,
     )
+
+
+def without_notebook(course: Course, exercise: str) -> list[Result]:
+    """Those who handed in something for an exercise, but no notebook of it."""
+    handed_in = set(course.students(exercise))
+    return [
+        Result(student, exercise, "no notebook", remarks=(receipt.missing,))
+        for student, receipt in read_receipts(receipts_folder(course.root, exercise)).items()
+        if receipt.missing and student not in handed_in
+    ]
 
 
 def relative(path: str | Path, root: Path) -> str:

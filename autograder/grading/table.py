@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
@@ -10,6 +11,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
+from .collecting.collect import Row
 from .course import Course
 from .inert import terminal_text
 from .report.statistics import ENOUGH, ClassReport, QuestionReport
@@ -29,6 +31,16 @@ def progress_bar(exercise: str, count: int) -> Iterator[Callable[[str], None]]:
         yield lambda student: bar.update(task, advance=1, last=escape(terminal_text(student, 30)))
 
 
+def collect_table(rows: Sequence[Row]) -> None:
+    """What became of everybody's work, and how many there are of each kind."""
+    table = Table("student", "what became of it", "file", "remarks", title=None)
+    for row in rows:
+        table.add_row(*map(_cell, (row.student, row.status, row.file, "; ".join(row.remarks))))
+    _console().print(table)
+    counts = Counter(row.status for row in rows)
+    print("; ".join(f"{count} {status}" for status, count in counts.most_common()) or "nothing to collect")
+
+
 def class_table(results: Sequence[Result]) -> None:
     """The class table: student, exercise, score and what was found."""
     table = Table("student", "exercise", "score", "found", title=None)
@@ -41,14 +53,14 @@ def class_table(results: Sequence[Result]) -> None:
 
 def summary(course: Course, results: Sequence[Result]) -> None:
     """How many were graded, left alone or failed, and where the feedback is."""
-    counts = {
-        status: sum(result.status == status for result in results) for status in ("graded", "unchanged", "failed")
-    }
+    counts = Counter(result.status for result in results)
     words = [f"{counts['graded']} graded"]
     if counts["unchanged"]:
         words.append(f"{counts['unchanged']} unchanged since they were graded (--force grades them again)")
     if counts["failed"]:
         words.append(f"{counts['failed']} could not be judged")
+    if counts["no notebook"]:
+        words.append(f"{counts['no notebook']} handed in no notebook of it")
     print("; ".join(words))
     pages = [result.feedback for result in results if result.feedback]
     if pages:

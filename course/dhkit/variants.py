@@ -7,6 +7,7 @@ gradebook and derives the same numbers, on any machine: a text is hashed (SHA-25
 from __future__ import annotations
 
 import hashlib
+import unicodedata
 
 from .public import variant_ranges
 
@@ -24,6 +25,16 @@ def numbers(exercise: str, student: str) -> dict[str, float | str]:
     return {
         name: _pick(range_, f"{exercise} {name} {student.strip()}") for name, range_ in variant_ranges(exercise).items()
     }
+
+
+def normal_form(student: str) -> str:
+    """An id as it is compared: small letters without accents, and digits; nothing else counts.
+
+    Learning platforms leave out apostrophes, systems write accents in several ways, and people type what they like. An
+    id without letters and digits is all that is left of it without blanks.
+    """
+    folded = unicodedata.normalize("NFKD", unicodedata.normalize("NFKD", student).casefold())
+    return "".join(filter(str.isalnum, folded)) or "".join(folded.split())
 
 
 def _pick(range_: tuple, text: str) -> float | str:

@@ -59,8 +59,7 @@ def read_submission(path: Path) -> NotebookNode:
     for place in (path, path.parent, path.parent.parent):
         if place.is_symlink():
             raise Unreadable(f"{place.name} is a link, not a file of its own")
-    with _parsing:
-        return _trimmed(plain_bytes(path, MAX_FILE))
+    return read_content(plain_bytes(path, MAX_FILE))
 
 
 def plain_bytes(path: Path, limit: int) -> bytes:
@@ -76,8 +75,19 @@ def plain_bytes(path: Path, limit: int) -> bytes:
         raise Unreadable(str(reason)) from None
 
 
+def read_content(content: bytes) -> NotebookNode:
+    """The notebook in a file's content, its outputs left aside, and its pictures too if they are too large.
+
+    Raises
+    ------
+    Unreadable
+        If it is something else.
+    """
+    with _parsing:
+        return _trimmed(content)
+
+
 def _trimmed(content: bytes) -> NotebookNode:
-    """The notebook in a file, its outputs left aside, and its pictures too if they are too large."""
     try:
         content = cut(content, b"outputs", MAX_TOKENS)
         if (size := len(content)) <= MAX_BYTES:

@@ -1,0 +1,334 @@
+"""Collecting once more, names that do not tell, and archives that mean harm."""
+
+import io
+import re
+import struct
+import zipfile
+from datetime import timedelta
+
+import pytest
+
+from autograder import cli
+from autograder.grading.collecting import archives
+from autograder.grading.collecting.platforms import sender
+from autograder.grading.course import open_course
+from autograder.grading.errors import CourseError
+from autograder.grading.results import without_notebook
+
+
+def student(downloads, name, content, file="scara.ipynb", **more):
+    return downloads.Upload(name, {file: content}, "collected", wanted=content, **more)
+
+
+def right(downloads, who="nobody", count=99):
+    return downloads.as_bytes(downloads.answered("scara", who, count))
+
+
+def handed_in(root, who, exercise="scara"):
+    path = root / "submitted" / who / exercise / f"{exercise}.ipynb"
+    return path.read_bytes() if path.exists() else None
+
+
+def statuses(rows):
+    return {row.student: row.status for row in rows}
+
+
+def roster(root, *names, more=""):
+    lines = [f"s{number},{name.rpartition(' ')[2]},{name.rpartition(' ')[0]}" for number, name in enumerate(names)]
+    (root / "students.csv").write_text("\n".join(["id,last_name,first_name", *lines, more]), encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    "path, name, number, prefix, late",
+    [
+        ("Ada Lovelace_4711_assignsubmission_file_/scara.ipynb", "Ada Lovelace", "4711", "Ada Lovelace_4711_assignsubmission_file", False),
+        ("Ada Lovelace_4711_assignsubmission_file/sub/scara.ipynb", "Ada Lovelace", "4711", "Ada Lovelace_4711_assignsubmission_file", False),
+        ("Zoë ONeil_12_assignsubmission_file_my_scara_2.ipynb", "Zoë ONeil", "12", "Zoë ONeil_12_assignsubmission_file", False),
+        ("Participant_77_assignsubmission_file_/scara.ipynb", "", "77", "Participant_77_assignsubmission_file", False),
+        ("Teilnehmerin_77_assignsubmission_file/scara.ipynb", "", "77", "Teilnehmerin_77_assignsubmission_file", False),
+        ("Team 3_9_assignsubmission_file/scara.ipynb", "Team 3", "9", "Team 3_9_assignsubmission_file", False),
+        ("Default team_assignsubmission_file/scara.ipynb", "Default team", "", "Default team_assignsubmission_file", False),
+        ("Ada Lovelace_4711_assignsubmission_onlinetext/onlinetext.html", "Ada Lovelace", "4711", "Ada Lovelace_4711_assignsubmission_onlinetext", False),
+        ("lovelaceada_3143_207797_scara.ipynb", "lovelaceada", "3143", "lovelaceada_3143", False),
+        ("obrienjosé_LATE_3143_207797_scara-1.ipynb", "obrienjosé", "3143", "obrienjosé_LATE_3143", True),
+        ("submissions/lovelaceada_3143_207797_my_12_3.ipynb", "lovelaceada", "3143", "lovelaceada_3143", False),
+        ("lovelaceada_3143_text.html", "lovelaceada", "3143", "lovelaceada_3143", False),
+        ("anon_aB3xZ_207797_scara.ipynb", "", "anon_aB3xZ", "anon_aB3xZ", False),
+        ("LATE_anon_aB3xZ_207797_scara.ipynb", "", "anon_aB3xZ", "LATE_anon_aB3xZ", True),
+    ],
+)  # fmt: skip
+def test_a_downloaded_file_tells_its_sender(path, name, number, prefix, late):
+    whose, _ = sender(("all.zip", *path.split("/")))
+    assert (whose.name, whose.number, whose.prefix, whose.late) == (name, number, prefix, late)
+
+
+@pytest.mark.parametrize("path", ["scara.ipynb", "Ada Lovelace/scara.ipynb", "notes_2024.ipynb", "__MACOSX/._x"])
+def test_other_names_tell_nothing(path):
+    assert sender(("all.zip", *path.split("/"))) is None
+
+
+def test_collecting_again_changes_nothing_and_a_newer_one_replaces_the_older(downloads, collect, root):
+    first = [
+        student(downloads, "Ann A", right(downloads, "ann", 3)),
+        student(downloads, "Ben B", right(downloads, "ben")),
+    ]
+    download = downloads.moodle(first)
+    assert statuses(collect(download)) == {"Ann A": "collected", "Ben B": "collected"}
+    before = {path: path.stat().st_mtime_ns for path in root.glob("submitted/*/*/*")}
+    assert statuses(collect(download, download)) == {"Ann A": "unchanged", "Ben B": "unchanged"}
+    assert {path: path.stat().st_mtime_ns for path in root.glob("submitted/*/*/*")} == before
+    later = [student(downloads, "Ann A", right(downloads, "ann"), hours={"scara.ipynb": 50}), first[1]]
+    rows = {row.student: row for row in collect(downloads.moodle(later))}
+    assert rows["Ann A"].status == "replaced" and "newer" in rows["Ann A"].remarks[0]
+    assert handed_in(root, "Ann A") == later[0].wanted
+    rows = {row.student: row for row in collect(download)}
+    assert rows["Ann A"].status == "kept" and handed_in(root, "Ann A") == later[0].wanted
+    assert "was collected before is newer" in rows["Ann A"].remarks[0]
+
+
+def test_the_newer_of_two_downloads_counts_where_their_files_bear_no_times(downloads, collect, root):
+    old, new = right(downloads, "ann", 3), right(downloads, "ann, again")
+    path = "Ann A_1_assignsubmission_file_/scara.ipynb"
+    first = downloads.zipped({path: old}, times={path: downloads.START})
+    second = downloads.zipped({path: new}, times={path: downloads.START + timedelta(days=2)})
+    rows = collect(second, first)
+    assert statuses(rows) == {"Ann A": "collected"} and handed_in(root, "Ann A") == new
+    assert "the newest of 2" in rows[0].remarks
+    assert not (root / "submitted/Ann A/scara/timestamp.txt").exists()
+
+
+def test_a_later_upload_of_canvas_counts(downloads, collect, root):
+    old, new = right(downloads, "ann", 3), right(downloads, "ann")
+    files = {"aann_LATE_7_1009_scara-1.ipynb": new, "aann_LATE_7_1002_scara.ipynb": old}
+    rows = collect(downloads.zipped(files))
+    assert handed_in(root, "aann") == new and rows[0].remarks == ("the newest of 2", "marked late")
+
+
+def test_a_file_put_there_by_hand_stays(downloads, collect, root):
+    own = right(downloads, "the lecturer's")
+    folder = root / "submitted/Ann A/scara"
+    folder.mkdir(parents=True)
+    (folder / "scara.ipynb").write_bytes(own)
+    download = downloads.moodle([student(downloads, "Ann A", right(downloads, "ann"))])
+    assert statuses(collect(download)) == {"Ann A": "kept"} and handed_in(root, "Ann A") == own
+    collect(download)
+    assert handed_in(root, "Ann A") == own
+    assert statuses(collect(download, force=True)) == {"Ann A": "replaced"}
+    assert handed_in(root, "Ann A") == right(downloads, "ann")
+
+
+def test_a_worse_file_later_does_not_take_what_is_there(downloads, collect, root):
+    download = downloads.moodle([student(downloads, "Ann A", right(downloads, "ann"))])
+    collect(download)
+    (row,) = collect(downloads.moodle([student(downloads, "Ann A", b"%PDF", "report.pdf")]))
+    assert row.status == "kept" and "no notebook this time" in row.remarks[0]
+    assert handed_in(root, "Ann A") == right(downloads, "ann")
+
+
+def test_times_of_handing_in_become_time_stamps(downloads, collect, root):
+    people = [student(downloads, f"Ann {letter}", right(downloads, letter)) for letter in "abc"]
+    collect(downloads.moodle(people))
+    stamps = [(root / f"submitted/Ann {letter}/scara/timestamp.txt").read_text() for letter in "abc"]
+    assert len(set(stamps)) == 3 and all(re.fullmatch(r"2026-10-1\d \d\d:\d\d:\d\d UTC\n", stamp) for stamp in stamps)
+
+
+def test_times_that_only_tell_of_the_download_become_none(downloads, collect, root):
+    collect(downloads.canvas([student(downloads, f"Ann {letter}", right(downloads, letter)) for letter in "abc"]))
+    assert not list(root.rglob("timestamp.txt"))
+
+
+WORKSHEET = """Identifier,Full name,Email address,Status,Grade,Maximum grade,Grade can be changed,Last modified (submission),Last modified (grade)
+Participant 4711,José García,jose1@x.org,Submitted for grading,,20.00,Yes,"Tuesday, 13 October 2026, 10:23 PM",-
+Participant 4712,José García,jose2@x.org,Submitted for grading,,20.00,Yes,"Wednesday, 14 October 2026, 8:05 AM",-
+"""
+
+
+def test_two_of_one_name_are_told_apart_by_the_worksheet(downloads, collect, root):
+    people = [student(downloads, "José García", right(downloads, who)) for who in ("one", "two")]
+    table = root.parent / "worksheet.csv"
+    table.write_text(WORKSHEET, encoding="utf-8-sig")
+    (root / "students.csv").write_text(
+        "id,last_name,first_name,email\ngarcia1,García,José,jose1@x.org\ngarcia2,García,José,jose2@x.org\n"
+    )
+    rows = collect(downloads.moodle(people), worksheets=[table])
+    assert statuses(rows) == {"garcia1": "collected", "garcia2": "collected"}
+    assert [handed_in(root, who) for who in ("garcia1", "garcia2")] == [one.wanted for one in people]
+    assert (root / "submitted/garcia1/scara/timestamp.txt").exists()
+
+
+def test_two_of_one_name_are_told_apart_by_what_they_typed(downloads, collect, root):
+    people = [student(downloads, "José García", right(downloads, who)) for who in ("garcia 2", "GARCIA1")]
+    (root / "students.csv").write_text("id,last_name,first_name\ngarcia1,García,José\ngarcia2,García,José\n")
+    assert statuses(collect(downloads.moodle(people))) == {"garcia1": "collected", "garcia2": "collected"}
+    assert [handed_in(root, who) for who in ("garcia2", "garcia1")] == [one.wanted for one in people]
+
+
+def test_two_of_one_name_whom_nothing_tells_apart_are_both_there_and_told(downloads, collect, root):
+    people = [student(downloads, "José García", right(downloads, who)) for who in ("one", "two")]
+    for _ in range(2):
+        rows = collect(downloads.moodle(people))
+        assert statuses(rows).keys() == {"José García 4711", "José García 4712"}
+    assert [handed_in(root, f"José García {number}") for number in (4711, 4712)] == [one.wanted for one in people]
+
+
+@pytest.mark.parametrize("platform", ["moodle", "canvas"])
+def test_hidden_names_are_taken_from_the_notebooks(platform, downloads, collect, root):
+    people = [student(downloads, name, right(downloads, name)) for name in ("Ann A", "Ben B", "nobody at all")]
+    roster(root, "Ann A", "Ben B", "Cid C")
+    made = downloads.moodle(people, name=lambda name: "Participant") if platform == "moodle" else downloads.canvas(people, anonymous=True)  # fmt: skip
+    found = statuses(collect(made))
+    stranger = "Participant 4713" if platform == "moodle" else "Participant anon_a3002Z"
+    assert found == {"s0": "collected", "s1": "collected", "s2": "missing", stranger: "collected"}
+    assert [handed_in(root, who) for who in ("s0", "s1", stranger)] == [one.wanted for one in people]
+
+
+def test_nobody_takes_anothers_place_by_typing_the_id(downloads, collect, root):
+    people = [student(downloads, name, right(downloads, "Ann A")) for name in ("x", "y")]
+    roster(root, "Ann A")
+    rows = statuses(collect(downloads.moodle(people, name=lambda name: "Participant")))
+    assert rows == {"s0": "missing", "Participant 4711": "collected", "Participant 4712": "collected"}
+
+
+def test_people_who_are_not_on_the_roster_are_collected_and_told(downloads, collect, root):
+    roster(root, "Ann A")
+    rows = {row.student: row for row in collect(downloads.moodle([student(downloads, "Guest G", right(downloads))]))}
+    assert rows["Guest G"].remarks == ("not on the roster",) and rows["s0"].status == "missing"
+
+
+def test_canvas_finds_people_by_number(downloads, collect, root):
+    (root / "students.csv").write_text("id,last_name,first_name,canvas_id\nada,King,Augusta,3000\n")
+    assert statuses(collect(downloads.canvas([student(downloads, "Ada Lovelace", right(downloads))]))) == {
+        "ada": "collected"
+    }
+
+
+def test_a_group_hands_in_for_its_members(downloads, collect, root):
+    (root / "students.csv").write_text("id,groups\nada,Team 3\nben,Team 3; Tuesday\ncid,\n")
+    rows = {row.student: row for row in collect(downloads.moodle([student(downloads, "Team 3", right(downloads))]))}
+    assert rows["Team 3"].remarks == ("a group: ada, ben",) and rows.keys() == {"Team 3", "cid"}
+
+
+def test_plain_zips_and_folders(downloads, collect, root):
+    notebook = {name: right(downloads, name) for name in ("Ann A", "Ben B", "Cid C", "Dan D", "Eve E")}
+    roster(root, *notebook)
+    inner = downloads.zipped({"scara/scara.ipynb": notebook["Cid C"], "readme.txt": b"x"})
+    files = {
+        "class/Ann A/scara.ipynb": notebook["Ann A"],
+        "class/Ben B.ipynb": notebook["Ben B"],
+        "class/Cid C.zip": inner,
+    }
+    folder = root.parent / "unpacked"
+    (folder / "s3/scara").mkdir(parents=True)
+    (folder / "s3/scara/scara.ipynb").write_bytes(notebook["Dan D"])
+    (folder / "s3/scara/link.ipynb").symlink_to("/etc/passwd")
+    alone = root.parent / "whatever.ipynb"
+    alone.write_bytes(notebook["Eve E"])
+    rows = statuses(collect(downloads.zipped(files), folder, alone))
+    assert rows == {f"s{number}": "collected" for number in range(5)}
+    assert [handed_in(root, f"s{number}") for number in range(5)] == list(notebook.values())
+
+
+def test_a_download_packed_once_more(downloads, collect, root):
+    people = [student(downloads, name, right(downloads, name)) for name in ("Ann A", "Ben B")]
+    twice = downloads.zipped({"Downloads/all.zip": downloads.moodle(people), "__MACOSX/Downloads/._all.zip": b"x"})
+    assert statuses(collect(twice)) == {"Ann A": "collected", "Ben B": "collected"}
+
+
+def test_a_download_that_cannot_be_read_is_named_and_the_others_are_collected(downloads, collect, root):
+    people = [student(downloads, "Ann A", right(downloads))]
+    rows = collect(b"PK\x03\x04 and no more", downloads.moodle(people))
+    assert statuses(rows) == {"?": "nobody's", "Ann A": "collected"}
+    assert "damaged" in rows[0].remarks[0]
+
+
+def test_files_without_an_owner_are_named(downloads, collect, root):
+    made = zipfile.ZipFile(file := io.BytesIO(downloads.moodle([student(downloads, "Ann A", right(downloads))])), "a")
+    made.writestr("notes.txt", "for myself")
+    made.close()
+    assert [(row.student, row.file) for row in collect(file.getvalue()) if row.status == "nobody's"] == [
+        ("?", "notes.txt")
+    ]
+
+
+def bomb(size):
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive, archive.open("scara.ipynb", "w") as entry:
+        entry.write(b"{")
+        for _ in range(size >> 20):
+            entry.write(b" " * (1 << 20))
+    return file.getvalue()
+
+
+def nested(downloads, content, depth):
+    for _ in range(depth):
+        content = downloads.zipped({"again.zip": content})
+    return content
+
+
+def many(count):
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w") as archive:
+        for number in range(count):
+            archive.writestr(f"{number}.txt", "")
+    return file.getvalue()
+
+
+def lying_directory(content):
+    """A zip that says its list of names is 200 MB long."""
+    place = content.rindex(b"PK\x05\x06") + 12
+    return content[:place] + struct.pack("<L", 200 << 20) + content[place + 4 :]
+
+
+@pytest.mark.parametrize(
+    "make, said",
+    [
+        (lambda downloads: bomb(110 << 20), "larger than"),
+        (lambda downloads: nested(downloads, downloads.zipped({"scara.ipynb": b"{}"}), 5), "deep"),
+        (lambda downloads: many(2100), "more than 2000 files"),
+        (lambda downloads: lying_directory(many(3)), "too many files"),
+    ],
+    ids=["size", "nesting", "number", "list of names"],
+)
+def test_archives_that_mean_harm_cost_little_and_name_the_student(make, said, downloads, collect, root, monkeypatch):
+    monkeypatch.setattr(archives, "MAX_FILE", 20 << 20)
+    people = [student(downloads, "Eve E", make(downloads), "scara.zip"), student(downloads, "Ann A", right(downloads))]
+    rows = {row.student: row for row in collect(downloads.moodle(people))}
+    assert rows["Ann A"].status == "collected" and handed_in(root, "Eve E") is None
+    assert rows["Eve E"].status in ("unreadable", "no notebook") and said in " ".join(rows["Eve E"].remarks)
+
+
+def test_what_comes_out_of_one_archive_is_bounded_as_a_whole(downloads, collect, root, monkeypatch):
+    monkeypatch.setattr(archives, "MAX_FILE", 1 << 20)
+    monkeypatch.setattr(archives, "MAX_RATIO", 1)
+    blank = downloads.zipped({f"{number}.ipynb": b"{" + b" " * 900_000 for number in range(5)})
+    (row,) = collect(downloads.moodle([student(downloads, "Eve E", blank, "scara.zip")]))
+    assert "larger than" in " ".join(row.remarks)
+
+
+def test_the_command_shows_one_table(downloads, root, capsys):
+    people = [student(downloads, "Ann A", right(downloads)), student(downloads, "Ben B", b"%PDF", "report.pdf")]
+    path = root.parent / "all.zip"
+    path.write_bytes(downloads.moodle(people))
+    assert cli.main(["collect", "scara", str(path), "--course", str(root)]) == 0
+    said = capsys.readouterr().out
+    assert re.search(r"Ann A .*collected .*scara\.ipynb", said) and re.search(
+        r"Ben B .*no notebook .*report\.pdf", said
+    )
+    assert "1 collected; 1 no notebook" in said
+
+
+def test_who_handed_in_something_else_has_a_line_in_the_class_table(downloads, collect, root):
+    people = [student(downloads, "Ann A", right(downloads)), student(downloads, "Ben B", b"%PDF", "report.pdf")]
+    collect(downloads.moodle(people))
+    (line,) = without_notebook(open_course(root), "scara")
+    assert (line.student, line.score, line.found()) == ("Ben B", None, "no notebook: handed in: report.pdf")
+
+
+def test_what_cannot_be_collected_is_said(downloads, collect, root):
+    with pytest.raises(CourseError, match=r"there is no .*/missing\.zip"):
+        collect(root / "missing.zip")
+    with pytest.raises(CourseError, match="there is no exercise 'sacra'"):
+        collect(b"", exercise="sacra")
+    (root / "exercises/scara/scara.ipynb").unlink()
+    with pytest.raises(CourseError, match="autograder release scara"):
+        collect(b"")
