@@ -1,4 +1,7 @@
-"""Which tests stay together when several workers share them (pytest-xdist, --dist loadgroup)."""
+"""Which tests stay together when several workers share them (pytest-xdist, --dist loadgroup).
+
+Long files name their own groups, so that two workers can share them.
+"""
 
 import pytest
 
@@ -7,7 +10,8 @@ import pytest
 def pytest_collection_modifyitems(config, items):
     if config.pluginmanager.hasplugin("xdist"):
         for item in items:
-            item.add_marker(pytest.mark.xdist_group(together(item)))
+            if item.get_closest_marker("xdist_group") is None:
+                item.add_marker(pytest.mark.xdist_group(together(item)))
 
 
 def together(item):

@@ -1,6 +1,7 @@
 """A class whose runs are prepared ahead, and a process that is stopped at any step of storing their results."""
 
 import errno
+import gc
 import os
 import shutil
 import signal
@@ -8,6 +9,8 @@ import sqlite3
 import sys
 import traceback
 from contextlib import contextmanager
+from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -16,7 +19,7 @@ import sqlalchemy
 from sqlalchemy.exc import OperationalError
 
 from autograder import cli
-from autograder.grading import files
+from autograder.grading import files, rendering
 from autograder.grading.cells import check_cells, notebook_record, question_id
 from autograder.grading.plugins import preprocessors
 from autograder.grading.plugins.preprocessors import SandboxExecute
@@ -63,14 +66,21 @@ def files_below(root):
     return sorted(str(path.relative_to(root)) for step in steps for path in (root / step).rglob("*"))
 
 
+def as_from_a_terminal():
+    """Let this process be stopped, also where the tests run under nohup or in the background of a shell."""
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
 def start(action):
     """Start `action` in a process of its own; returns its number."""
     sys.stdout.flush()
     sys.stderr.flush()
     if (child := os.fork()) == 0:
-        signal.signal(signal.SIGHUP, signal.SIG_DFL)  # in the background a shell has them ignored
-        signal.signal(signal.SIGINT, signal.default_int_handler)
         code = 99
+        gc.freeze()  # to collect what the copy shares with this process would copy all of it
+        as_from_a_terminal()
         try:
             code = action()
         except BaseException:
@@ -179,11 +189,12 @@ class HalfWritten:
 
 @contextmanager
 def stubbed():
-    """Runs are prepared, for as long as this lasts: the process goes on to tests with real kernels."""
+    """Runs are prepared and no process lays out texts, for as long as this lasts: tests with real kernels may follow."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(SandboxExecute, "run", prepared)
         patch.setattr(SandboxExecute, "find_fault", lambda *settings: None)
         patch.setattr("autograder.grading.plugins.autograde.available", lambda: None)
+        patch.setattr(rendering.RENDERER, "render", lambda kind, text, *more: f"<pre>{escape(text)}</pre>")
         yield
 
 
@@ -208,34 +219,52 @@ def faults(small):
     )
 
 
+@dataclass(frozen=True)
+class HalfGraded:
+    """A class that is graded in part, kept in a folder of its own, and the place where it is worked with.
+
+    The place is the same for every test: what was compiled for its gradebook once serves all of them.
+    """
+
+    kept: Path
+    place: Path
+
+    def put_back(self):
+        """The class in its place, as it was."""
+        shutil.rmtree(self.place, ignore_errors=True)
+        shutil.copytree(self.kept, self.place)
+        return self.place
+
+
 @pytest.fixture(scope="session")
 def half_graded(registry, small, empty_course, released, tmp_path_factory):
     """A class of three: `same` is graded, `old` was graded and handed in anew, `new` was never graded."""
-    root = tmp_path_factory.mktemp("faults") / "course"
-    shutil.copytree(empty_course, root)
-    hand_in(small, root, released, "same", "right")
-    hand_in(small, root, released, "old", "wrong")
+    folder = tmp_path_factory.mktemp("faults")
+    found = HalfGraded(folder / "kept", folder / "course")
+    shutil.copytree(empty_course, found.place)
+    hand_in(small, found.place, released, "same", "right")
+    hand_in(small, found.place, released, "old", "wrong")
+    with stubbed():
+        assert grade(found.place) == 0
+    hand_in(small, found.place, released, "old", "right")
+    hand_in(small, found.place, released, "new", "right")
+    shutil.copytree(found.place, found.kept)
     # In this process: each later one starts as a copy of it, with all templates and statements compiled.
     with stubbed():
-        assert grade(root) == 0
-    hand_in(small, root, released, "old", "right")
-    hand_in(small, root, released, "new", "right")
-    return root
+        assert grade(found.place) == 0
+    return found
 
 
 @pytest.fixture
-def course(half_graded, tmp_path):
-    """A copy of the half graded class."""
-    root = tmp_path / "course"
-    shutil.copytree(half_graded, root)
-    return root
+def course(half_graded):
+    """The half graded class."""
+    return half_graded.put_back()
 
 
 @pytest.fixture(scope="session")
 def right(half_graded, tmp_path_factory):
     """Gradebook entries, files and pages as they must be in the end, and the steps of storing that lead there."""
-    root = tmp_path_factory.mktemp("right") / "course"
-    shutil.copytree(half_graded, root)
+    root = half_graded.put_back()
     names = tmp_path_factory.mktemp("steps") / "names"
 
     def action():

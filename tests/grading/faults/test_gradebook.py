@@ -138,7 +138,7 @@ def test_release_leaves_the_exercise_when_the_gradebook_cannot_be_used(course, c
 
 
 def test_an_older_gradebook_put_back_is_brought_up_to_date(graded, half_graded, faults, right):
-    shutil.copy(half_graded / "gradebook.db", graded / "gradebook.db")
+    shutil.copy(half_graded.kept / "gradebook.db", graded / "gradebook.db")
     assert faults.grade(graded) == 0 and unchanged(faults, graded, right)
 
 
