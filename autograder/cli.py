@@ -140,6 +140,19 @@ def _parser() -> argparse.ArgumentParser:
     )
     release.add_argument("exercise", nargs="*", help="exercises to release (default: all)")
 
+    roster = command(
+        "roster",
+        _roster,
+        "Take the students of the course from what Moodle or Canvas exports into students.csv and the gradebook.",
+        "autograder roster participants.csv grades.csv",
+    )
+    roster.add_argument(
+        "file",
+        nargs="*",
+        metavar="FILE",
+        help="Moodle's list of participants or grading worksheet, Canvas's grade table (none: show students.csv as it is)",
+    )
+
     collect = command(
         "collect",
         _collect,
@@ -228,6 +241,17 @@ def _release(options) -> int:
                 print(
                     f"  {what}: {', '.join(questions)}; for {changes.submissions} submissions, run: autograder grade {exercise}"
                 )
+    return 0
+
+
+def _roster(options) -> int:
+    from pathlib import Path
+
+    from autograder.grading.enrolment import enrol
+    from autograder.grading.table import roster_table
+
+    files = [Path(name).absolute() for name in options.file]
+    roster_table(enrol(_course(options), files))
     return 0
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 
 from rich.console import Console
@@ -13,6 +13,7 @@ from rich.table import Table
 
 from .collecting.collect import Row
 from .course import Course
+from .enrolment import Enrolled
 from .inert import terminal_text
 from .report.statistics import ENOUGH, ClassReport, QuestionReport
 from .results import Result, relative
@@ -31,14 +32,23 @@ def progress_bar(exercise: str, count: int) -> Iterator[Callable[[str], None]]:
         yield lambda student: bar.update(task, advance=1, last=escape(terminal_text(student, 30)))
 
 
+def roster_table(lines: Sequence[Enrolled]) -> None:
+    """Who is in the course, with the id to be typed into notebooks."""
+    table = Table("id", "name", "e-mail", "groups", "", title=None)
+    for line in lines:
+        one = line.person
+        table.add_row(*map(_cell, (one.id, one.name, one.email, "; ".join(one.groups), line.status)))
+    _console().print(table)
+    _print_counts(line.status for line in lines)
+
+
 def collect_table(rows: Sequence[Row]) -> None:
     """What became of everybody's work, and how many there are of each kind."""
     table = Table("student", "what became of it", "file", "remarks", title=None)
     for row in rows:
         table.add_row(*map(_cell, (row.student, row.status, row.file, "; ".join(row.remarks))))
     _console().print(table)
-    counts = Counter(row.status for row in rows)
-    print("; ".join(f"{count} {status}" for status, count in counts.most_common()) or "nothing to collect")
+    _print_counts(row.status for row in rows)
 
 
 def class_table(results: Sequence[Result]) -> None:
@@ -96,6 +106,10 @@ def _look_at(question: QuestionReport) -> str:
     if not question.look_at:
         return ""
     return f"{question.unexplained} unexplained" + (f", {question.alike} alike" if question.alike > 1 else "")
+
+
+def _print_counts(statuses: Iterable[str]) -> None:
+    print("; ".join(f"{count} {status}" for status, count in Counter(statuses).most_common()) or "nobody")
 
 
 def _console() -> Console:

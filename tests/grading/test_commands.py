@@ -30,7 +30,7 @@ def run(root, *words):
     return cli.main([*words, "--course", str(root)])
 
 
-COMMANDS = ("release", "collect", "grade", "feedback", "report", "export", "bundle", "doctor")
+COMMANDS = ("release", "roster", "collect", "grade", "feedback", "report", "export", "bundle", "doctor")
 
 
 @pytest.mark.parametrize("command", COMMANDS)
