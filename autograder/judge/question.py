@@ -16,7 +16,7 @@ import sympy
 from dhkit import public
 from dhkit.forms import Form
 from dhkit.forms.function import Function
-from dhkit.variants import OwnNumbers, numbers
+from dhkit.variants import OwnNumbers, normal_form, numbers
 
 from .chain import SAME_MODEL
 from .kinds import Setting
@@ -243,7 +243,7 @@ class Question:
         """Argument lists for a function question (JSON-able), None for any other kind."""
         if self.probe is None:
             return None
-        rng = np.random.default_rng([seed, _seed(f"{self.id} {student}")])
+        rng = np.random.default_rng([seed, _seed(f"{self.id} {normal_form(student)}")])
         return _with_own(self.probe, self.numbers(student))(rng)
 
     def setting(self, student: str | None = None, *args) -> Setting:

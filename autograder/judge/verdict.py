@@ -11,7 +11,7 @@ import numpy as np
 from dhkit import public
 from dhkit.forms import Form
 from dhkit.nodes import is_blank
-from dhkit.variants import NOBODY
+from dhkit.variants import NOBODY, normal_form
 
 from .blind import beyond_guessing
 from .decode import Decoded, Failure, Malformed, decode_answer, decode_probes, decode_student
@@ -64,7 +64,7 @@ def judge(
         if _is_blank(question.form, answer):
             return _explain_blank(evidence)
         verdict = _judge_answer(question, evidence, answer, student, earlier or {})
-        if verdict.share < 1 and typed is not None and typed != student:
+        if verdict.share < 1 and typed is not None and normal_form(typed) != normal_form(student):
             return _judge_for_another(question, evidence, answer, typed) or verdict
         return verdict
     except Malformed as fault:

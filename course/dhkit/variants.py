@@ -20,11 +20,21 @@ def numbers(exercise: str, student: str) -> dict[str, float | str]:
     """The numbers of `student` for `exercise`, by name; empty if the exercise is the same for everybody.
 
     A range ``[lowest, highest, step]`` gives ``lowest + k * step``, a list of texts gives one of them; k, counted from
-    0, is the SHA-256 of "<exercise> <name> <student>" modulo the number of values.
+    0, is the SHA-256 of "<exercise> <name> <student>" modulo the number of values, the student by the `normal_form` of
+    the id.
     """
-    return {
-        name: _pick(range_, f"{exercise} {name} {student.strip()}") for name, range_ in variant_ranges(exercise).items()
-    }
+    whose = normal_form(student)
+    return {name: _pick(range_, f"{exercise} {name} {whose}") for name, range_ in variant_ranges(exercise).items()}
+
+
+def normal_form(student: str) -> str:
+    """An id as it is compared: small letters without accents, and digits; nothing else counts.
+
+    Learning platforms leave out apostrophes, systems write accents in several ways, and people type what they like. An
+    id without letters and digits is all that is left of it without blanks.
+    """
+    folded = unicodedata.normalize("NFKD", unicodedata.normalize("NFKD", student).casefold())
+    return "".join(filter(str.isalnum, folded)) or "".join(folded.split())
 
 
 def normal_form(student: str) -> str:
@@ -77,12 +87,13 @@ def variant(exercise: str, student=...) -> OwnNumbers:
     ValueError
         If `student` is no text.
     """
-    if student is ... or student == "":
+    if student is ...:
         student = NOBODY
     if not isinstance(student, str):
         raise ValueError(f'your id is a text, for example "ada"; found {student!r}')
+    student = student.strip() or NOBODY
     mine = OwnNumbers(numbers(exercise, student))
-    mine.__dict__["student"] = student.strip()
+    mine.__dict__["student"] = student
     _typed[exercise] = mine.student
     return mine
 

@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from dhkit import variants, wire
-from dhkit.variants import numbers, variant
+from dhkit.variants import normal_form, numbers, variant
 
 RANGES = {"L1": (0.4, 0.6, 0.02), "x": (-0.3, 0.3, 0.1), "elbow": ("up", "down")}
 
@@ -22,7 +22,7 @@ def ranges(monkeypatch):
 def test_the_numbers_of_a_student_never_change():
     """Written down once: a change of machine, of Python or of this code that moves them would make a class's answers wrong."""
     assert numbers("arm", "ada") == {"L1": 0.56, "x": 0.1, "elbow": "up"}
-    assert numbers("arm", "Emmy Noether") == {"L1": 0.54, "x": 0.0, "elbow": "down"}
+    assert numbers("arm", "Emmy Noether") == {"L1": 0.5, "x": -0.2, "elbow": "down"}
     assert numbers("arm", "学生") == {"L1": 0.4, "x": 0.1, "elbow": "up"}
 
 
@@ -48,8 +48,28 @@ def test_numbers_stay_in_their_range_and_use_all_of_it():
     assert seen["elbow"] == {"up", "down"}
 
 
-def test_spaces_around_an_id_do_not_matter():
-    assert numbers("arm", " ada ") == numbers("arm", "ada") != numbers("arm", "bob")
+SPELT = [
+    ["ada lovelace", "Ada Lovelace", " Ada  Lovelace\n", "AdaLovelace", "ADA-LOVELACE", "ada_lovelace", "Ada\u00a0Lovelace"],
+    ["O'Brien", "OBrien", "o’brien", "O`Brien"],
+    ["François Élie", "Franc\u0327ois E\u0301lie", "FRANÇOIS ÉLIE", "Francois Elie"],
+    ["Straße", "STRASSE"],
+    ["ﬁnn ４２", "Finn 42"],
+    ["İpek", "ipek"],
+    ["ΣΟΦΟΣ", "σοφός"],
+    ["...", " ... ", ". . ."],
+]
+
+
+@pytest.mark.parametrize("ways", SPELT, ids=lambda ways: ways[0])
+def test_an_id_has_one_normal_form_however_it_is_spelt(ways):
+    assert len({normal_form(way) for way in ways}) == 1 and normal_form(ways[0])
+    assert len({str(numbers("arm", way)) for way in ways}) == 1
+
+
+def test_different_ids_stay_different():
+    ids = ["ada", "bob", "ada2", "adab", "学生", "学", "...", "__", "!", "🤖", "ł", "l"]
+    assert len({normal_form(id) for id in ids}) == len(ids)
+    assert numbers("arm", "ada") != numbers("arm", "bob")
 
 
 def test_numbers_are_read_by_name_and_shown():
@@ -60,7 +80,7 @@ def test_numbers_are_read_by_name_and_shown():
 
 
 def test_without_an_id_they_are_nobodys():
-    assert variant("arm") == variant("arm", ...) == numbers("arm", variants.NOBODY)
+    assert variant("arm") == variant("arm", ...) == variant("arm", "  ") == numbers("arm", variants.NOBODY)
     assert "Nobody" in variant("arm")._repr_markdown_()
     with pytest.raises(ValueError, match='for example "ada"; found 17'):
         variant("arm", 17)

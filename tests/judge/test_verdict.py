@@ -91,6 +91,12 @@ def test_an_answer_for_the_id_that_was_typed_is_told_apart():
     assert "nobody" in judged(REACH, 2 * length(variants.NOBODY), student=variants.NOBODY).feedback
 
 
+def test_another_spelling_of_the_own_id_is_no_other_student():
+    assert judged(REACH, 2 * length("jose obrien"), "José OBrien", student="José O'Brien").note == "right"
+    theirs = judged(REACH, 1.234, "José OBrien", student="jose\u0301 o'brien")
+    assert theirs.note == "nothing_matched"
+
+
 @pytest.mark.parametrize("typed", [17, ["bob"], {"a": 1}, "x" * 5000])
 def test_a_forged_id_is_malformed(typed):
     assert judged(REACH, 1.0, student=typed).note == "malformed"
