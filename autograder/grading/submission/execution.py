@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import hashlib
 import importlib.util
 import json
@@ -101,7 +102,7 @@ def execute(
     folders = list(folders)
     files, left_out = read_folders(folders, limits.disk // 2)
     shut = (*hidden, *folders)
-    run = run_notebook(nb, files=files, limits=limits, mode=mode, followup=probe, hidden=shut)
+    run = run_notebook(_with_kit(nb), files=files, limits=limits, mode=mode, followup=probe, hidden=shut)
     counts = {index: count for count, index in enumerate(sorted(run.cells), 1)}
     outputs = {index: inert_outputs(cell.outputs, counts[index]) for index, cell in run.cells.items()}
     checks = {index: name for index in run.cells if (name := check_name(nb.cells[index]))}
@@ -135,6 +136,14 @@ def confirm(again: Callable[[], Execution], find_fault: Callable[[float], str | 
     if execution.doubt and (fault := find_fault(execution.lived)):
         raise MachineFault(f"{fault}; then grade again")
     return execution
+
+
+def _with_kit(nb: NotebookNode) -> NotebookNode:
+    """The notebook with `check` imported afresh in each check cell: a cell of the student's may have taken its name."""
+    ready = copy.deepcopy(nb)
+    for cell in check_cells(ready).values():
+        cell.source = f"from dhkit import check\n{cell.source}"
+    return ready
 
 
 def _left_out(names: list[str]) -> str | None:
