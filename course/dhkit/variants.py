@@ -37,16 +37,6 @@ def normal_form(student: str) -> str:
     return "".join(filter(str.isalnum, folded)) or "".join(folded.split())
 
 
-def normal_form(student: str) -> str:
-    """An id as it is compared: small letters without accents, and digits; nothing else counts.
-
-    Learning platforms leave out apostrophes, systems write accents in several ways, and people type what they like. An
-    id without letters and digits is all that is left of it without blanks.
-    """
-    folded = unicodedata.normalize("NFKD", unicodedata.normalize("NFKD", student).casefold())
-    return "".join(filter(str.isalnum, folded)) or "".join(folded.split())
-
-
 def _pick(range_: tuple, text: str) -> float | str:
     chance = int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "big")
     if isinstance(range_[0], str):
