@@ -197,6 +197,28 @@ def _parser() -> argparse.ArgumentParser:
     )
     feedback.add_argument("exercise")
 
+    returned = command(
+        "return",
+        _return,
+        "Write grades and feedback pages as Moodle and Canvas take them back.",
+        "autograder return scara --moodle ~/Downloads/worksheet.csv",
+    )
+    returned.add_argument("exercise")
+    platform = returned.add_mutually_exclusive_group(required=True)
+    platform.add_argument(
+        "--moodle",
+        nargs="?",
+        const="",
+        metavar="WORKSHEET",
+        help="the assignment's grading worksheet, to be filled in (none: only the zip of feedback files)",
+    )
+    platform.add_argument("--canvas", metavar="CSV", help="the grade table as Canvas exports it")
+    returned.add_argument("--assignment", metavar="NAME", help="column of Canvas's table (default: the exercise's)")
+    returned.add_argument(
+        "--scale", action="store_true", help="count in the platform's maximum where it is not the exercise's"
+    )
+    returned.add_argument("--to", metavar="FOLDER", help="folder to write to (default: build/return/EXERCISE)")
+
     report = command(
         "report",
         _report,
@@ -214,6 +236,7 @@ def _parser() -> argparse.ArgumentParser:
     export.add_argument(
         "--exercise", action="append", default=[], metavar="NAME", help="only this exercise; may be repeated"
     )
+    export.add_argument("--bom", action="store_true", help="mark the file as UTF-8, for Excel")
     export.add_argument("--to", metavar="FILE", default="grades.csv", help="file to write (default: grades.csv)")
 
     bundle = command("bundle", _bundle, "Write the zip that students get.", "autograder bundle --to build/robots.zip")
@@ -312,6 +335,24 @@ def _feedback(options) -> int:
     return 0
 
 
+def _return(options) -> int:
+    from pathlib import Path
+
+    from autograder.grading.returning import return_canvas, return_moodle
+    from autograder.grading.table import returned_table
+
+    given, to = (Path(name).absolute() if name else None for name in (options.moodle or options.canvas, options.to))
+    course, exercise = _course(options), options.exercise
+    folder = to or course.root / "build/return" / exercise
+    if options.canvas:
+        lines = return_canvas(course, exercise, given, options.assignment, folder, options.scale)
+    else:
+        lines = return_moodle(course, exercise, given, folder, options.scale)
+    returned_table(lines)
+    print(*sorted(folder.glob(f"{exercise}-*")), sep="\n")
+    return 0
+
+
 def _report(options) -> int:
     from pathlib import Path
 
@@ -335,7 +376,8 @@ def _export(options) -> int:
     from autograder.grading.plugins.export import GradesAndNotes
 
     target = os.path.abspath(options.to)
-    course = _course(options, Config(ExportPlugin={"to": target, "assignment": options.exercise}))
+    plugin = {"to": target, "assignment": options.exercise, "bom": options.bom}
+    course = _course(options, Config(GradesAndNotes=plugin))
     for exercise in options.exercise:
         course.choose(exercise)
     with stock_gradebook(course.db_url, course.app.coursedir.course_id) as gradebook:

@@ -1,7 +1,7 @@
 """From what students hand in to a gradebook, notes and feedback: nbgrader plug-ins and the class pipeline.
 
 errors, cells  what went wrong, in words; ids and records of cells
-roster         students.csv: who is in the course; worksheets: tables that platforms give out and take back
+roster         students.csv: who is in the course; enrolment: how it is made; worksheets: tables of platforms
 collecting/    from a platform's download to the folders of students
 entries        what a verdict is in nbgrader's gradebook: a score and a comment
 inert          makes what a student wrote harmless to look at
@@ -14,6 +14,7 @@ host           prepares a process that runs nbgrader
 course         a course folder with nbgrader opened on it
 pipeline       grades a class: kernels side by side, gradebook by one thread
 results        what was found, one line per submission
+returning      grades and pages as platforms take them back
 report/        the class report
 release, bundle, doctor    the other commands; table shows results and report in a terminal
 """

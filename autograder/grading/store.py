@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -114,6 +114,11 @@ class StoredNotebook:
     def score(self) -> float:
         """Points of the notebook, nothing taken off for being late."""
         return sum(grade.score for grade in self.grades.values())
+
+    @property
+    def bonus(self) -> float:
+        """What of the score are extra points."""
+        return sum(grade.score - replace(grade, extra=None).score for grade in self.grades.values())
 
     @property
     def max_score(self) -> float:

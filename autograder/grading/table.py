@@ -17,6 +17,7 @@ from .enrolment import Enrolled
 from .inert import terminal_text
 from .report.statistics import ENOUGH, ClassReport, QuestionReport
 from .results import Result, relative
+from .returning import Returned
 
 # So many notes of a question stand in the report's table; the page shows all.
 _NOTES = 4
@@ -49,6 +50,16 @@ def collect_table(rows: Sequence[Row]) -> None:
         table.add_row(*map(_cell, (row.student, row.status, row.file, "; ".join(row.remarks))))
     _console().print(table)
     _print_counts(row.status for row in rows)
+
+
+def returned_table(lines: Sequence[Returned]) -> None:
+    """What goes back to the platform, and of whom nothing does."""
+    table = Table("student", "points", "remarks", title=None)
+    table.columns[1].justify = "right"
+    for line in lines:
+        points = "-" if line.points is None else f"{line.points:g}"
+        table.add_row(*map(_cell, (line.student, points, "; ".join(line.remarks))))
+    _console().print(table)
 
 
 def class_table(results: Sequence[Result]) -> None:

@@ -8,7 +8,7 @@ of participants have headings in the language of the site; Canvas's grade table 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -105,7 +105,13 @@ def is_canvas_student(header: Sequence[str], row: Sequence[str]) -> bool:
     return cells.get("ID", "").strip().isdigit() and cells.get("Student", "") != "Student, Test"
 
 
-def _canvas_person(cells: dict[str, str]) -> Person:
+def canvas_numbers(cells: Mapping[str, str]) -> tuple[str, str, str, str]:
+    """What a row of Canvas's grade table says of its student: ``ID``, login, SIS id, and the name."""
+    person = _canvas_person(cells)
+    return person.canvas_id, person.login, person.sis_user_id, person.name
+
+
+def _canvas_person(cells: Mapping[str, str]) -> Person:
     if "Student" in cells:
         last, _, first = (part.strip() for part in cells["Student"].partition(","))
     else:

@@ -308,7 +308,7 @@ def test_stock_export_holds_grades_and_notes(stock, ours, tmp_path):
     text = (tmp_path / "grades.csv").read_text()
     assert text == (stock / "grades.csv").read_text()
     sign = next(line for line in text.splitlines() if ",sign," in line)
-    assert sign == "scara,,,sign,,,,15.0,0.0,15.0,20.0,scara.T04: sign_of_d2,5.0,4.0,6.0"
+    assert sign == "scara,,,sign,,,,15.0,0.0,0.0,15.0,20.0,scara.T04: sign_of_d2,5.0,4.0,6.0"
 
 
 def test_grading_again_leaves_unchanged_submissions_alone(ours, small, released, capsys, tmp_path):

@@ -69,16 +69,15 @@ class _Piece:
         return self.handed_in or self.downloaded or self.written
 
     @property
-    def order(self) -> tuple[int, ...]:
+    def rank(self) -> tuple:
+        """A notebook that nobody touched is never better than one with answers, however new it is."""
         answered = self.found.answered if self.found else 0
-        return (attempt(self.packed.path), upload(self.packed.path), answered)
+        return _rank(self.moment, attempt(self.packed.path), upload(self.packed.path), answered)
 
     @property
     def newest_last(self) -> tuple:
-        """A notebook that nobody touched is never better than one with answers, however new it is."""
-        touched = bool(self.found and self.found.answered)
-        *attempts, answered = self.order
-        return (touched, self.moment, *attempts, self.packed.times[-1], answered, self.packed.path)
+        *rank, answered = self.rank
+        return (*rank, self.packed.times[-1], answered, self.packed.path)
 
     @property
     def shown(self) -> str:
@@ -317,7 +316,9 @@ def _receipt(piece: _Piece, pieces: Sequence[_Piece], late: Sequence[str]) -> Re
         downloaded=piece.downloaded,
         file=piece.shown,
         digest=piece.digest,
-        order=piece.order,
+        attempt=attempt(piece.packed.path),
+        upload=upload(piece.packed.path),
+        answered=piece.found.answered if piece.found else 0,
     )
 
 
@@ -354,9 +355,8 @@ def _place(
     elif there is not None and not force:
         if before is None or before.digest != there:
             return "kept", ("a file that was put there by hand stays; --force takes the platform's",)
-        if _rank(before.handed_in or before.downloaded or datetime.min, before.order) > _rank(
-            piece.moment, piece.order
-        ):
+        moment = before.handed_in or before.downloaded or datetime.min
+        if _rank(moment, before.attempt, before.upload, before.answered) > piece.rank:
             return "kept", ("what was collected before is newer",)
         status, remarks = "replaced", ("newer than what was collected before",)
     elif there is not None:
@@ -374,8 +374,8 @@ def _place(
     return status, remarks
 
 
-def _rank(moment: datetime, order: Sequence[int]) -> tuple:
-    return (order[-1] > 0, moment, *order)
+def _rank(moment: datetime, attempt: int, upload: int, answered: int) -> tuple:
+    return (answered > 0, moment, attempt, upload, answered)
 
 
 def _absent(course: Course, exercise: str, roster: Roster, receipts: Mapping[str, Receipt]) -> list[Row]:

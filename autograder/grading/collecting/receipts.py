@@ -37,8 +37,8 @@ class Receipt(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
         Path of the notebook inside the download.
     digest : str
         SHA-256 of the notebook; empty if there is none.
-    order : tuple of int
-        Where times do not tell: the attempt's number, then how many answers there are.
+    attempt, upload, answered : int
+        Number of the attempt, Canvas's number of the upload, and how many answers there are.
     missing : str
         Why there is no notebook, in words; empty if there is one.
     remarks : tuple of str
@@ -54,7 +54,9 @@ class Receipt(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     downloaded: datetime | None = None
     file: str = ""
     digest: str = ""
-    order: tuple[int, ...] = ()
+    attempt: int = 0
+    upload: int = 0
+    answered: int = 0
     missing: str = ""
     remarks: tuple[str, ...] = ()
 

@@ -6,28 +6,37 @@ import csv
 
 from nbgrader.api import Assignment, Gradebook, MissingEntry, Student
 from nbgrader.plugins import ExportPlugin
+from traitlets import Bool
 
 from ..cells import question_id
 from ..entries import read_entries
 from ..inert import spreadsheet_cell
 
 _ABOUT = ("assignment", "duedate", "timestamp", "student_id", "last_name", "first_name", "email")
-_SCORES = ("raw_score", "late_submission_penalty", "score", "max_score")
+_SCORES = ("raw_score", "bonus", "late_submission_penalty", "score", "max_score")
 
 
 class GradesAndNotes(ExportPlugin):
-    """nbgrader's own columns, then the notes in one column and the points of each question."""
+    """nbgrader's own columns, then the notes in one column and the points of each question.
+
+    The questions' points and the bonus add up to the raw score. Who handed in nothing has no points, rather than none
+    of them; an exercise that nobody handed in has no lines.
+    """
+
+    bom = Bool(False, help="Mark the file as UTF-8, without which Excel does not read accents.").tag(config=True)
 
     def export(self, gradebook: Gradebook) -> None:
         wanted = set(map(str, self.assignment))
         students = set(map(str, self.student))
-        assignments = [found for found in gradebook.assignments if not wanted or found.name in wanted]
+        assignments = [
+            found for found in gradebook.assignments if found.submissions and (not wanted or found.name in wanted)
+        ]
         cells = [cell for found in assignments for book in found.notebooks for cell in book.grade_cells]
         checks = [cell.name for cell in cells if cell.cell_type == "code"]
         columns = [*_ABOUT, *_SCORES, "notes", *(question_id(check) for check in sorted(checks))]
         target = self.to or "grades.csv"
         self.log.info("Exporting grades to %s", target)
-        with open(target, "w", newline="", encoding="utf-8") as file:
+        with open(target, "w", newline="", encoding="utf-8-sig" if self.bom else "utf-8") as file:
             writer = csv.DictWriter(file, columns, restval="")
             writer.writeheader()
             for assignment in assignments:
@@ -51,13 +60,14 @@ def _row(gradebook: Gradebook, assignment: Assignment, student: Student) -> dict
     try:
         submission = gradebook.find_submission(assignment.name, student.id)
     except MissingEntry:
-        return row | {"raw_score": 0.0, "late_submission_penalty": 0.0, "score": 0.0, "max_score": assignment.max_score}
+        return row | {"max_score": assignment.max_score}
     penalty = submission.late_submission_penalty
     row |= {"timestamp": submission.timestamp, "raw_score": submission.score, "late_submission_penalty": penalty}
     row |= {"score": max(0.0, submission.score - penalty), "max_score": assignment.max_score}
-    notes = []
+    notes, bonus = [], submission.score
     for entry in read_entries(submission):
         row[question_id(entry.check)] = entry.score
+        bonus -= entry.score
         if entry.note not in (None, "right"):
             notes.append(f"{question_id(entry.check)}: {entry.note}")
-    return row | {"notes": "; ".join(notes)}
+    return row | {"bonus": round(bonus, 2), "notes": "; ".join(notes)}

@@ -62,5 +62,5 @@ def test_the_receipts_keep_what_the_platform_said(downloads, collect, root):
     receipts = json.loads((root / "downloaded/scara/collected.json").read_text())
     assert receipts["lovelaceada"] | {"digest": "", "downloaded": ""} == {
         "platform": "canvas", "number": "3000", "prefix": "lovelaceada_LATE_3000", "name": "lovelaceada", "late": True,
-        "downloaded": "", "file": "lovelaceada_LATE_3000_200007_scara.ipynb", "digest": "", "order": [0, 200007, 9],
+        "downloaded": "", "file": "lovelaceada_LATE_3000_200007_scara.ipynb", "digest": "", "upload": 200007, "answered": 9,
     }  # fmt: skip
