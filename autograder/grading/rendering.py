@@ -97,6 +97,7 @@ class Renderer:
                 [sys.executable, "-m", __name__, str(theirs_in), str(theirs_out)],
                 pass_fds=(theirs_in, theirs_out),
                 stdin=subprocess.DEVNULL,
+                start_new_session=True,  # Ctrl-C is for the grader: a page without its texts would be stored
             )
         finally:
             os.close(theirs_in)

@@ -15,6 +15,9 @@ import os
 import signal
 import subprocess
 import sys
+import threading
+import time
+from contextlib import suppress
 from pathlib import Path
 from typing import IO, Any
 
@@ -52,6 +55,28 @@ def _font_list() -> dict[str, bytes]:
     return {f".cache/matplotlib/{os.path.basename(path)}": Path(path).read_bytes() for path in found}
 
 
+def _kill_child(pid: int, parent: int) -> None:
+    """Kill a child of `parent`; nothing happens if it is gone and somebody else has its number."""
+    try:
+        descriptor = os.pidfd_open(pid)
+    except ProcessLookupError:
+        return
+    try:
+        # Is the one seen here not the one behind the descriptor, then that one is gone and gets no signal.
+        if psutil.Process(pid).ppid() == parent:
+            signal.pidfd_send_signal(descriptor, signal.SIGKILL)
+    except (psutil.Error, ProcessLookupError):
+        pass
+    finally:
+        os.close(descriptor)
+
+
+def _kill_group(leader: int) -> None:
+    """Kill the process group of a process that has not been waited for, so that the number is still its own."""
+    with suppress(ProcessLookupError, PermissionError):
+        os.killpg(leader, signal.SIGKILL)
+
+
 class SandboxProvisioner(LocalProvisioner):
     """Starts a kernel under bubblewrap, relays its messages, watches what it uses, and leaves nothing behind.
 
@@ -70,6 +95,10 @@ class SandboxProvisioner(LocalProvisioner):
     exit_status: int | None = None
     _private: PrivateFolder | None = None
     _console: IO[bytes] | None = None
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._reaping = threading.Lock()  # the watch may want to kill what is just being waited for
 
     @property
     def folder(self) -> Path:
@@ -176,19 +205,34 @@ class SandboxProvisioner(LocalProvisioner):
         process = self.process
         if process is None:
             return
-        try:
-            first = psutil.Process(process.pid).children() if self.sandboxed else []
+        with self._reaping:
+            if process.returncode is not None:
+                return  # its number may be anybody's by now
+            try:
+                first = psutil.Process(process.pid).children() if self.sandboxed else []
+            except psutil.Error:
+                first = []
             for child in first:
-                child.kill()
+                _kill_child(child.pid, process.pid)
             if not first:
-                os.killpg(process.pid, signal.SIGKILL)
-        except (psutil.Error, ProcessLookupError, PermissionError):
-            process.kill()
+                _kill_group(process.pid)
+
+    def _ended(self, process: subprocess.Popen[bytes]) -> int | None:
+        """Exit status once the process has ended; what is left of its group ends before its number is given back."""
+        with self._reaping:
+            if process.returncode is None:
+                try:
+                    if psutil.Process(process.pid).status() != psutil.STATUS_ZOMBIE:
+                        return None
+                    _kill_group(process.pid)
+                except psutil.NoSuchProcess:
+                    pass  # where nobody waits for processes (SIGCHLD is ignored) it is given back at once
+            return process.poll()
 
     async def poll(self) -> int | None:
         if self.process is None:
             return 0
-        status = self.process.poll()
+        status = self._ended(self.process)
         if status is not None:
             self.exit_status = status
         return status
@@ -204,11 +248,12 @@ class SandboxProvisioner(LocalProvisioner):
         """Kill the kernel and everything it started."""
         self._kill_family()
         for _ in range(50):
-            if self.process is None or self.process.poll() is not None:
+            if self.process is None or self._ended(self.process) is not None:
                 return
             await asyncio.sleep(0.05)
         if self.process is not None:
-            self.process.kill()
+            with self._reaping:
+                self.process.kill()
 
     async def terminate(self, restart: bool = False) -> None:
         """Same as kill: a student's kernel is not asked."""
@@ -225,8 +270,8 @@ class SandboxProvisioner(LocalProvisioner):
     def release(self) -> None:
         """End the relay and the watch, kill what is left, remove the private folder."""
         self._kill_family()
-        if self.process is not None:
-            self.process.wait()
+        while self.process is not None and self._ended(self.process) is None:
+            time.sleep(0.01)
         self._let_go()
         if self._private is not None:
             self._private.remove()

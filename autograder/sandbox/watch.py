@@ -21,10 +21,9 @@ _PERIOD = 0.2
 _LOOKS = 3  # at a family that seems to have lost processor time: a child was just being waited for
 
 
-def family(pid: int) -> list[psutil.Process]:
-    """Return a process and all its descendants, parents first; nothing when it is gone."""
+def family(root: psutil.Process) -> list[psutil.Process]:
+    """Return a process and all its descendants, parents first; nothing when it is gone, whoever has its number then."""
     try:
-        root = psutil.Process(pid)
         return [root, *root.children(recursive=True)]
     except psutil.Error:
         return []
@@ -124,7 +123,7 @@ class FamilyWatch(threading.Thread):
     Parameters
     ----------
     pid : int
-        Its first process.
+        Its first process, which nobody has waited for.
     outer : int
         How many of its processes stand outside the sandbox or keep it, so that it cannot stop them.
     places : iterable of str
@@ -143,7 +142,7 @@ class FamilyWatch(threading.Thread):
         self, pid: int, *, outer: int, places: Iterable[str], limit: int | None, exceeded: Callable[[], None]
     ) -> None:
         super().__init__(name="family-watch", daemon=True)
-        self._pid = pid
+        self._root = psutil.Process(pid)
         self._outer = outer
         self._places = tuple(places)
         self._limit = limit
@@ -178,12 +177,12 @@ class FamilyWatch(threading.Thread):
 
     def memory_now(self) -> int:
         """Return the bytes of memory that the family holds."""
-        return memory_in_use(family(self._pid), self._places)
+        return memory_in_use(family(self._root), self._places)
 
     def _look(self) -> list[psutil.Process]:
         with self._looking:
             for _ in range(_LOOKS):
-                members = family(self._pid)
+                members = family(self._root)
                 seen = observe(members, self._outer)
                 if seen.processor >= self._processor:
                     break

@@ -163,3 +163,11 @@ def test_a_hostile_submission_is_graded_like_any_other(needs_sandbox, small, cou
     assert json.loads(capsys.readouterr().out)["score"] == 20
     html = (course_copy / "feedback/ann/scara/scara.html").read_text()
     assert "f&#39;{f&#39;{" in html or "f'{f'{" in html
+
+
+def test_ctrl_c_at_the_terminal_is_for_the_grader():
+    """It reaches every process of the group; a page laid out at that moment would lack its texts, and be stored."""
+    renderer = Renderer()
+    assert renderer.render("markdown", "*a*", Budget())
+    assert os.getpgid(renderer._process.pid) != os.getpgid(0)
+    renderer._stop()

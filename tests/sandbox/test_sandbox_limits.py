@@ -92,10 +92,11 @@ def test_memory_of_a_family_is_summed_with_shared_pages_once():
             os._exit(0)
         pids.append(pid)
     try:
+        members = watch.family(psutil.Process())
         own = watch.resident_bytes(os.getpid())
-        separate = sum(watch.resident_bytes(member.pid) for member in watch.family(os.getpid()))
-        buffers = sum(watch.buffered_bytes(member) for member in watch.family(os.getpid()))
-        together = watch.memory_in_use(watch.family(os.getpid())) - buffers
+        separate = sum(watch.resident_bytes(member.pid) for member in members)
+        buffers = sum(map(watch.buffered_bytes, members))
+        together = watch.memory_in_use(members) - buffers
     finally:
         for pid in pids:
             os.kill(pid, 9)
