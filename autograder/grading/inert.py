@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
+from urllib.parse import unquote
 
 import nh3
 from nbconvert.filters.markdown_mistune import IPythonRenderer, MarkdownWithMath
@@ -13,9 +14,11 @@ from nbformat.v4 import new_output
 from pygments.token import STANDARD_TYPES
 
 MAX_NESTING = 100  # tags within tags; what reads the page later on needs time with the square of it
+PICTURES = ("image/png", "image/jpeg", "image/gif", "image/webp")
+"""Pictures that can be pasted into a cell; SVG is not among them, as it is a program of its own."""
 
 _SHOWN = ("text/plain", "text/latex", "image/svg+xml", "image/png", "image/jpeg")
-_BASE64 = re.compile(r"[A-Za-z0-9+/=\s]*\Z")
+BASE64 = re.compile(r"[A-Za-z0-9+/=\s]*\Z")
 _CONTROL = re.compile(
     r"(?:\x1b\[[0-9;?]*[A-Za-z]|[\x00-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff])+"
 )
@@ -66,7 +69,7 @@ def _inert(output: dict, count: int) -> NotebookNode | None:
     if kind not in ("display_data", "execute_result") or not isinstance(output.get("data"), dict):
         return None
     data = {mime: _joined(output["data"][mime]) for mime in _SHOWN if mime in output["data"]}
-    data = {mime: text for mime, text in data.items() if mime not in ("image/png", "image/jpeg") or _BASE64.match(text)}
+    data = {mime: text for mime, text in data.items() if mime not in ("image/png", "image/jpeg") or BASE64.match(text)}
     if not data:
         return None
     return new_output(kind, data=data, **({"execution_count": count} if kind == "execute_result" else {}))
@@ -82,7 +85,7 @@ def _joined(text: object) -> str:
 class _Renderer(IPythonRenderer):
     """Stock rendering, except that tags which are not let through are shown as they were typed.
 
-    A missing attachment is said instead of ending the page.
+    An attached picture is named by its number; a missing one is said instead of ending the page.
     """
 
     def block_html(self, html: str) -> str:
@@ -92,32 +95,51 @@ class _Renderer(IPythonRenderer):
         return super().inline_html(html) if _is_allowed(html) else escape(html)
 
     def _embed_image_or_attachment(self, src: str) -> str:
-        if src.startswith("attachment:") and src.removeprefix("attachment:") not in self.attachments:
-            return "missing-picture"
-        return super()._embed_image_or_attachment(src)
+        if not src.startswith("attachment:"):
+            return src
+        name, names = src.removeprefix("attachment:"), list(self.attachments)
+        known = next((one for one in (name, unquote(name)) if one in names), None)
+        return "missing-picture" if known is None else f"attachment:{names.index(known)}"
 
 
-def clean_markdown(source: str, attachments: dict[str, dict[str, str]]) -> str:
+def clean_markdown(source: str, pictures: Sequence[str] = ()) -> str:
     """Markdown as HTML, with every tag and attribute that could act left out.
 
     Parameters
     ----------
     source : str
-    attachments : dict of str to dict
-        Pictures of the cell, by name.
+    pictures : sequence of str
+        Names of the pictures attached to the cell; `with_pictures` puts them in.
 
     Raises
     ------
     ValueError
         If tags are nested more than `MAX_NESTING` deep.
     """
-    renderer = _Renderer(escape=False, attachments=attachments, exclude_anchor_links=True)
+    renderer = _Renderer(escape=False, attachments={name: {} for name in pictures}, exclude_anchor_links=True)
     page = MarkdownWithMath(renderer=renderer).render(source)
     if _nesting(page) > MAX_NESTING:
         raise ValueError("nested too deep")
     return nh3.clean(
         page, tags=_TAGS, attributes=_ATTRIBUTES, attribute_filter=_attribute, url_schemes=_SCHEMES, link_rel=None
     )
+
+
+def with_pictures(page: str, attachments: Mapping[str, Mapping[str, str]]) -> str:
+    """HTML made by `clean_markdown` with the attached pictures in it, each at the first place where it is shown."""
+    forms = list(attachments.values())
+    shown = set()
+
+    def picture(place: re.Match) -> str:
+        number = int(place[1])
+        found = forms[number] if number < len(forms) else {}
+        mime = next((mime for mime in PICTURES if BASE64.match(found.get(mime, "-"))), None)
+        if mime is None or number in shown:
+            return ""  # a browser shows the words that stand for the picture
+        shown.add(number)
+        return f'src="data:{mime};base64,{found[mime]}"'
+
+    return _ATTACHED.sub(picture, page)
 
 
 _TAGS = {
@@ -127,10 +149,11 @@ _TAGS = {
 }  # fmt: skip
 _ATTRIBUTES = {"*": {"align", "title"}, "a": {"href"}, "img": {"alt", "src"}, "ol": {"start"}}
 _ATTRIBUTES |= {"div": {"class"}, "span": {"class"}}
-_SCHEMES = {"http", "https", "mailto", "data"}
+_SCHEMES = {"http", "https", "mailto", "data", "attachment"}
 _TAG = re.compile(r"</?\s*([a-zA-Z][^\s/>]*)")
 _LINK = re.compile(r"(https?://|mailto:|#)\S*\Z")
-_IMAGE = re.compile(r"data:image/(png|jpeg);base64,[A-Za-z0-9+/=\s]*\Z")
+_IMAGE = re.compile(r"(attachment:\d{1,9}|data:image/(png|jpeg);base64,[A-Za-z0-9+/=\s]*)\Z")
+_ATTACHED = re.compile(r'src="attachment:(\d{1,9})"')
 _EMPTY = {"br", "hr", "img"}
 _CODE_CLASSES = frozenset(STANDARD_TYPES.values()) - {""} | {"highlight"}
 

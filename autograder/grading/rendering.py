@@ -18,7 +18,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from html import escape
 from multiprocessing.connection import Connection
@@ -28,6 +28,7 @@ from jinja2 import pass_context
 from jinja2.runtime import Context
 
 from .cells import is_check
+from .inert import clean_markdown, with_pictures
 
 PAGE_SECONDS = 1.0  # processor time for the texts of one page
 PAGE_HTML = 250_000  # characters of HTML made of them: the exporter reads the whole page once more
@@ -57,7 +58,7 @@ class Renderer:
         self._lock = threading.Lock()
         self._process: subprocess.Popen[bytes] | None = None
 
-    def render(self, kind: str, text: str, budget: Budget, attachments: Mapping[str, Any] | None = None) -> str | None:
+    def render(self, kind: str, text: str, budget: Budget, pictures: Iterable[str] = ()) -> str | None:
         """Return `text` as HTML, None if that goes beyond the budget, which is reduced by what it took.
 
         Parameters
@@ -66,12 +67,12 @@ class Renderer:
             "code", "markdown", "output" or "html".
         text : str
         budget : Budget
-        attachments : mapping, optional
-            Pictures of a Markdown cell, by name.
+        pictures : iterable of str
+            Names of the pictures attached to a Markdown cell.
         """
         if len(text) > TEXT or budget.seconds <= 0 or budget.html <= 0:
             return None
-        request = {"kind": kind, "text": text, "seconds": budget.seconds, "attachments": attachments or {}}
+        request = {"kind": kind, "text": text, "seconds": budget.seconds, "pictures": list(pictures)}
         with self._lock:
             try:
                 if self._process is None:
@@ -147,7 +148,7 @@ def markdown2html(context: Context, source: str) -> str:
     budget = _budget(context)
     attachments = (context.get("cell") or {}).get("attachments", {})
     html = RENDERER.render("markdown", source, budget, attachments)
-    return f"<pre>{_as_typed(source, budget)}</pre>" if html is None else html
+    return f"<pre>{_as_typed(source, budget)}</pre>" if html is None else with_pictures(html, attachments)
 
 
 @pass_context
@@ -179,8 +180,6 @@ def _serve(requests: Connection, replies: Connection) -> None:
     from nbconvert.filters.highlight import Highlight2HTML
     from nbconvert.filters.strings import clean_html as cleaned
 
-    from .inert import clean_markdown
-
     resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
     highlighted = Highlight2HTML(pygments_lexer="ipython3")
     ways = {
@@ -198,7 +197,7 @@ def _serve(requests: Connection, replies: Connection) -> None:
         # A signal that nobody catches ends the process, however deep in a pattern it is.
         signal.setitimer(signal.ITIMER_PROF, request["seconds"])
         try:
-            html = ways[request["kind"]](request["text"], request["attachments"])
+            html = ways[request["kind"]](request["text"], request["pictures"])
         except (RecursionError, MemoryError, ValueError):
             html = None
         signal.setitimer(signal.ITIMER_PROF, 0)

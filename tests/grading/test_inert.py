@@ -7,7 +7,7 @@ import pytest
 from nbformat.v4 import new_output
 
 from autograder.grading.entries import comment, note_of, score
-from autograder.grading.inert import clean_markdown, inert_outputs, spreadsheet_cell, terminal_text
+from autograder.grading.inert import clean_markdown, inert_outputs, spreadsheet_cell, terminal_text, with_pictures
 
 ATTACKS = [
     "<script>alert(1)</script>",
@@ -33,7 +33,7 @@ ATTACKS = [
 
 @pytest.mark.parametrize("text", ATTACKS)
 def test_markdown_cannot_act(text):
-    page = clean_markdown(text, {})
+    page = clean_markdown(text)
     tags = re.findall(r"<\s*([a-zA-Z]+)([^>]*)>", page)
     assert not {name.lower() for name, _ in tags} & {
         "script",
@@ -56,7 +56,7 @@ def test_markdown_cannot_act(text):
 
 def test_markdown_stays_readable():
     page = clean_markdown(
-        "# Title\n\n**bold** $a<b$ and `code`\n\n| a | b |\n|---|---|\n| 1 | 2 |\n\n```python\nx = 1\n```", {}
+        "# Title\n\n**bold** $a<b$ and `code`\n\n| a | b |\n|---|---|\n| 1 | 2 |\n\n```python\nx = 1\n```"
     )
     for piece in (
         "<h1>Title</h1>",
@@ -73,26 +73,41 @@ def test_markdown_stays_readable():
     "text", ["a <script>alert(1)</script> b", "<script>alert(1)</script>", "x <T> y", "<b><style>p{}</style></b>"]
 )
 def test_tags_that_are_not_let_through_are_shown_as_typed(text):
-    page = clean_markdown(text, {})
+    page = clean_markdown(text)
     typed = re.findall(r"</?(?:script|style|T)>", text)
     assert typed and all(html.escape(tag) in page for tag in typed)
 
 
 def test_harmless_html_is_let_through():
-    page = clean_markdown('x<sub>1</sub> <a href="https://example.org" title="t">y</a>\n\n<!-- nothing -->', {})
+    page = clean_markdown('x<sub>1</sub> <a href="https://example.org" title="t">y</a>\n\n<!-- nothing -->')
     assert 'x<sub>1</sub> <a href="https://example.org" title="t">y</a>' in page and "nothing" not in page
 
 
-def test_an_attached_picture_is_shown():
-    attachments = {"a.png": {"image/png": "QUJD"}}
-    assert '<img src="data:image/png;base64,QUJD"' in clean_markdown("![a](attachment:a.png)", attachments)
+ATTACHED = {"a.png": {"image/png": "QUJD"}, "ä b.webp": {"image/webp": "REVG"}, "no.svg": {"image/svg+xml": "QUJD"}}
+
+
+@pytest.mark.parametrize("name, shown", [
+    ("a.png", ' src="data:image/png;base64,QUJD"'), ("%C3%A4%20b.webp", ' src="data:image/webp;base64,REVG"'),
+    ("no.svg", ""), ("gone.png", ""),
+])  # fmt: skip
+def test_an_attached_picture_is_shown(name, shown):
+    page = with_pictures(clean_markdown(f"**see** ![it](attachment:{name})", list(ATTACHED)), ATTACHED)
+    assert f'<strong>see</strong> <img{shown} alt="it">' in page.replace("<img  ", "<img ")
+
+
+def test_a_picture_is_put_in_once_and_nothing_else_is_put_in():
+    page = clean_markdown("![a](attachment:a.png)" * 50 + '`src="attachment:0"` <img src="attachment:7">', ["a.png"])
+    page = with_pictures(page, {"a.png": {"image/png": "QUJD"}})
+    assert page.count("QUJD") == 1 and "attachment:7" not in page
+    bad = {"a.png": {"image/png": '"><script>'}}
+    assert "script" not in with_pictures(clean_markdown("![a](attachment:a.png)", ["a.png"]), bad)
 
 
 @pytest.mark.parametrize("text", ["<b>" * 200, "<div><span>" * 100 + "x" + "</span></div>" * 100])
 def test_deep_nesting_is_refused(text):
     with pytest.raises(ValueError, match="nested too deep"):
-        clean_markdown(text, {})
-    assert clean_markdown("<b>a</b> <br>" * 200, {})
+        clean_markdown(text)
+    assert clean_markdown("<b>a</b> <br>" * 200)
 
 
 def test_outputs_keep_text_formulas_and_pictures_only():

@@ -120,6 +120,14 @@ def test_all_texts_of_a_page_share_a_budget_and_the_graders_own_have_another():
     assert "<strong>abc</strong>" in rendering.markdown2html({}, "**abc**")
 
 
+def test_a_large_picture_is_shown_and_costs_nothing_of_the_budget():
+    cell = new_markdown_cell("*See* ![it](attachment:a.png)")
+    cell["attachments"] = {"a.png": {"image/png": "QUJD" * 2_000_000}}
+    html = page([cell, new_markdown_cell("**after**")])
+    assert "<em>See</em>" in html and f'src="data:image/png;base64,{cell.attachments["a.png"]["image/png"]}"' in html
+    assert "<strong>after</strong>" in html
+
+
 def test_a_renderer_that_was_stopped_starts_again():
     renderer, budget = Renderer(), Budget(seconds=0.01)
     assert renderer.render("markdown", "***a" * 5_000, budget) is None

@@ -11,7 +11,6 @@ import errno
 import hashlib
 import json
 import os
-import re
 import threading
 from dataclasses import replace
 from pathlib import Path
@@ -23,6 +22,7 @@ from autograder import sandbox
 from autograder.sandbox import plain_files
 
 from ..cells import NotebookRecord, notebook_record, write_record
+from ..inert import BASE64, PICTURES
 from .slim import TooManyTokens, cut
 
 MAX_FILE = 100 << 20
@@ -33,7 +33,6 @@ MAX_CELLS = 1000
 MAX_SOURCE = 500_000
 
 _NEW = {"code": new_code_cell, "markdown": new_markdown_cell, "raw": new_raw_cell}
-_PICTURE = re.compile(r"[A-Za-z0-9+/=\s]*\Z")
 # Trouble with a file that its author can have caused: there is none, or it is a link, a pipe or a socket.
 _AUTHORS_FAULT = {errno.ENOENT, errno.ENOTDIR, errno.ELOOP, errno.ENXIO, errno.ENAMETOOLONG}
 # Ten megabytes of "[],[],..." become a quarter of a gigabyte of objects: one file is parsed at a time.
@@ -99,7 +98,8 @@ def _trimmed(content: bytes) -> NotebookNode:
         raise Unreadable(f"the file is larger than {MAX_BYTES >> 20} MiB, without its outputs")
     nb = _notebook(_parse(content))
     remark = f"its pasted pictures hold {size >> 20} MiB, more than {MAX_BYTES >> 20}, and were left out"
-    write_record(nb, replace(notebook_record(nb), repairs=(remark,)))
+    record = notebook_record(nb)
+    write_record(nb, replace(record, repairs=(remark, *record.repairs)))
     return nb
 
 
@@ -155,8 +155,15 @@ def _notebook(content: object) -> NotebookNode:
     if (length := sum(len(cell.source) for cell in cells)) > MAX_SOURCE:
         raise Unreadable(f"the notebook holds {length:,} characters of text, without its outputs")
     nb = new_notebook(cells=cells)
-    write_record(nb, NotebookRecord(kernel=_kernel(content.get("metadata"))))
+    lost = sum(map(_pictures_lost, content["cells"], cells))
+    remark = (f"{lost} of its pasted pictures cannot be shown (PNG, JPEG, GIF and WebP can)",) if lost else ()
+    write_record(nb, NotebookRecord(kernel=_kernel(content.get("metadata")), repairs=remark))
     return nb
+
+
+def _pictures_lost(submitted: dict, cell: NotebookNode) -> int:
+    found = submitted.get("attachments")
+    return len(found) - len(cell.get("attachments", ())) if isinstance(found, dict) and found else 0
 
 
 def _kernel(metadata: object) -> str | None:
@@ -168,10 +175,8 @@ def _kernel(metadata: object) -> str | None:
 def _cell(number: int, cell: object) -> NotebookNode:
     if not isinstance(cell, dict) or cell.get("cell_type") not in _NEW:
         raise Unreadable(f"cell {number} is not a notebook cell")
-    source = cell.get("source", "")
-    if isinstance(source, list) and all(isinstance(line, str) for line in source):
-        source = "".join(source)
-    if not isinstance(source, str):
+    source = _joined(cell.get("source", ""))
+    if source is None:
         raise Unreadable(f"the source of cell {number} is not text")
     clean = _NEW[cell["cell_type"]](source=_text(source), id=f"cell-{number}")
     if (claim := _claim(cell.get("metadata"))) is not None:
@@ -189,13 +194,22 @@ def _claim(metadata: object) -> str | None:
 
 
 def _attachments(found: object) -> dict[str, dict[str, str]]:
+    """Pictures by name, each in one form."""
     kept = {}
     for name, forms in found.items() if isinstance(found, dict) else ():
-        for mime in ("image/png", "image/jpeg"):
-            data = forms.get(mime) if isinstance(forms, dict) else None
-            if isinstance(data, str) and _PICTURE.match(data):
+        for mime in PICTURES:
+            data = _joined(forms.get(mime)) if isinstance(forms, dict) else None
+            if data is not None and BASE64.match(data):
                 kept[_text(name)] = {mime: data}
+                break
     return kept
+
+
+def _joined(text: object) -> str | None:
+    """A text that may be given line by line; None for anything else."""
+    if isinstance(text, list) and all(isinstance(line, str) for line in text):
+        return "".join(text)
+    return text if isinstance(text, str) else None
 
 
 def _text(text: str) -> str:

@@ -49,7 +49,7 @@ def restore(submitted: NotebookNode, released: NotebookNode) -> NotebookNode:
     for index, cell in enumerate(submitted.cells):
         name = grade_id(cell) or ""
         if name in tracked and chosen.get(name) == index:
-            cells.append(_rebuilt(tracked[name], cell.source))
+            cells.append(_rebuilt(tracked[name], cell))
         elif name not in tracked or keeps_source(tracked[name]) or cell.source != tracked[name].source:
             cells.append(_untracked(cell))
     _put_back(cells, tracked, chosen)
@@ -120,10 +120,13 @@ def _in_words(name: str, cell: NotebookNode) -> str:
     return f"the locked cell {name}"
 
 
-def _rebuilt(original: NotebookNode, source: str) -> NotebookNode:
+def _rebuilt(original: NotebookNode, submitted: NotebookNode) -> NotebookNode:
+    """The tracked cell with what is the student's in it: the text, and the pictures pasted into it."""
     cell = _emptied(original)
     if keeps_source(original):
-        cell.source = source
+        cell.source = submitted.source
+        if cell.cell_type == "markdown" and "attachments" in submitted:
+            cell["attachments"] = submitted.attachments
     return cell
 
 

@@ -161,14 +161,22 @@ def test_only_type_source_pictures_and_claims_survive(path):
         "a.png": {"image/png": "QUJD"},
         "b.png": {"image/png": '"><script>'},
         "c": {"text/html": "QUJD"},
+        "d": {"image/svg+xml": "QUJD"},
+        "e": {"text/plain": "x", "image/jpeg": ["QUJD\n", "REVG"]},
     }
     raw = notebook(cell, text, metadata={"kernelspec": {"name": "julia\ud800"}, "widgets": {}})
     path.write_text(json.dumps(raw))
     nb = read_submission(path)
     nbformat.validate(nb)
     assert nb.cells[0].source == "x = 1\n" and nb.cells[0].metadata == {"nbgrader": {"grade_id": "scara-T04"}}
-    assert nb.cells[1].metadata == {} and nb.cells[1].attachments == {"a.png": {"image/png": "QUJD"}}
-    assert notebook_record(nb) == NotebookRecord(kernel="julia?") and nb.metadata.keys() == {"autograder"}
+    assert nb.cells[1].metadata == {} and nb.cells[1].attachments == {
+        "a.png": {"image/png": "QUJD"},
+        "e": {"image/jpeg": "QUJD\nREVG"},
+    }
+    said = "3 of its pasted pictures cannot be shown (PNG, JPEG, GIF and WebP can)"
+    assert notebook_record(nb) == NotebookRecord(kernel="julia?", repairs=(said,)) and nb.metadata.keys() == {
+        "autograder"
+    }
 
 
 @pytest.mark.parametrize("claim", [1, None, [], {"a": 1}, True])

@@ -173,3 +173,25 @@ def test_any_shuffle_deletion_and_copy_is_mended(right, released, seed):
     assert restore(nb, released).cells == nb.cells
     kept = [cell.source for cell in cells if cell.source == "edited" and grade_id(cell) not in CHECKS]
     assert sum(cell.source == "edited" for cell in nb.cells) >= len(kept)
+
+
+def test_pictures_pasted_into_the_open_problem_stay(right, released):
+    marks = {
+        "grade": True,
+        "solution": True,
+        "locked": False,
+        "grade_id": "scara-open",
+        "points": 0,
+        "schema_version": 3,
+    }
+    open_problem = new_markdown_cell("YOUR ANSWER HERE", id="open", metadata={"nbgrader": marks})
+    released = deepcopy(released)
+    released.cells.append(open_problem)
+    answer = new_markdown_cell("See ![](attachment:a.png)", metadata={"nbgrader": {"grade_id": "scara-open"}})
+    answer["attachments"] = {"a.png": {"image/png": "QUJD"}}
+    right.cells.append(answer)
+    cell(right, "scara-T04")["attachments"] = {"a.png": {"image/png": "QUJD"}}
+    nb = restore(right, released)
+    nbformat.validate(nb)
+    assert cell(nb, "scara-open").attachments == {"a.png": {"image/png": "QUJD"}}
+    assert cell(nb, "scara-open").source == answer.source and "attachments" not in cell(nb, "scara-T04")
