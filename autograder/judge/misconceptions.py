@@ -534,6 +534,21 @@ def fails_on_limit(*wrong: Wrong, **other) -> Mistake:
     )
 
 
+def tolerance_too_wide(*wrong: Wrong, **other) -> Mistake:
+    """A target out of reach gets a solution, because the function allows for more than rounding.
+
+    `wrong` are keywords with which the reference does that.
+    """
+    return _entry(
+        "tolerance_too_wide",
+        0.8,
+        "**Your function answers for targets that are a little out of reach.** The statement says how much to allow for rounding: what "
+        "lies further out has no solution.",
+        wrong=wrong,
+        **other,
+    )
+
+
 def extrinsic_for_intrinsic(**other) -> Mistake:
     """Turns about the fixed axes are taken for turns about the moving ones: the angles come out in the reverse order."""
 

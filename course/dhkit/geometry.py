@@ -394,14 +394,16 @@ def common_normal(first: Line, second: Line, parallel_below: float = PARALLEL) -
     """
     (p, u), (q, v) = unit_line(first), unit_line(second)
     between = q - p
-    cosine = _dot(u, v)
-    sine = np.linalg.norm(cross(u, v), axis=-1)
+    normal = cross(u, v)
+    sine = np.linalg.norm(normal, axis=-1)
     parallel = sine < parallel_below
     square = np.where(parallel, 1.0, sine**2)
     along_u, along_v = _dot(between, u), _dot(between, v)
-    at_first = np.where(parallel, 0.0, (along_u - cosine * along_v) / square)
-    at_second = np.where(parallel, -along_v, (cosine * along_u - along_v) / square)
-    feet = np.stack([p + at_first[..., None] * u, q + at_second[..., None] * v], axis=-2)
+    at_first = np.where(parallel, 0.0, (along_u - _dot(u, v) * along_v) / square)
+    foot = p + at_first[..., None] * u
+    # Along the normal, not from foot to foot: the feet of lines that are almost parallel are far away and ill defined.
+    way = (_dot(between, normal) / square)[..., None] * normal
+    feet = np.stack([foot, np.where(parallel[..., None], q - along_v[..., None] * v, foot + way)], axis=-2)
     meeting = np.linalg.norm(feet[..., 1, :] - feet[..., 0, :], axis=-1) < TOUCHING
     return CommonNormal(feet, parallel, meeting)
 

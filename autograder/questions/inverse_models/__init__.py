@@ -6,7 +6,14 @@ import numpy as np
 import sympy
 
 from autograder.judge import Question, mistake
-from autograder.judge.misconceptions import atan2_arguments_exchanged, atan_for_atan2, degrees, fails_on_limit, misprint
+from autograder.judge.misconceptions import (
+    atan2_arguments_exchanged,
+    atan_for_atan2,
+    degrees,
+    fails_on_limit,
+    misprint,
+    tolerance_too_wide,
+)
 from autograder.judge.steps import change_entry, in_each_row, negate, replace_entry
 
 from .model import (
@@ -271,8 +278,8 @@ QUESTIONS = (
                 wrong={"wrist": "from base"},
             ),
             fails_on_limit(
-                {"on_limit": None, "beyond": None},
-                {"on_limit": None},
+                {"slack": 0.0, "beyond": None},
+                {"fails": True},
                 share=0.7,
                 feedback="**On a limit your function fails.** Rounding pushes the sine of t3 a hair beyond 1, where arcsin and sqrt have no "
                 "value: clip first.",
@@ -282,8 +289,9 @@ QUESTIONS = (
                 0.8,
                 "**Some poses on the limit come back without a solution.** Rounding pushes the sine of t3 a hair beyond 1: leave a small tolerance "
                 "before you say that a pose is out of reach.",
-                wrong={"on_limit": ()},
+                wrong=[{"slack": 0.0}, {"slack": 1e-12}],
             ),
+            tolerance_too_wide({"slack": 1e-6}),
             mistake(
                 "out_of_reach_fails",
                 0.7,

@@ -165,6 +165,7 @@ def kr210_residual(q: np.ndarray, mine) -> np.ndarray:
 
 # ---------------------------------------------------------------- the RX-90 (MECA 953 slides)
 
+ALLOWED = 1e-9  # for rounding of the sine of t3, as the statement says
 LENGTHS = ((0.45, 0.45), (0.5, 0.25), (0.375, 0.625))
 ABOUT_X = np.diag([1.0, -1.0, -1.0, 1.0])
 WRIST = product(robots.RX90.table.transforms()[3:])[:3, :3]
@@ -181,19 +182,23 @@ def _rx90_postures(pose: bytes, a3: float, d3: float) -> Rows:
     return rx90(a3, d3).inverse(np.frombuffer(pose).reshape(4, 4)).q.tolist()
 
 
-def list_rx90_postures(U, a3: float, d3: float, *, hand="own", wrist="own", shoulder="both", on_limit="own", beyond=()):
+def list_rx90_postures(
+    U, a3: float, d3: float, *, hand="own", wrist="own", shoulder="both", slack=ALLOWED, fails=False, beyond=()
+):
     """All [t1, ..., t6] that bring the hand to U, (4, 4).
 
     `hand` may be that of the ``"printed"`` 5T6, and `wrist` be solved for the orientation seen ``"from base"``; `shoulder`
-    may be ``"front"`` or ``"back"``. `on_limit` is returned where rounding pushes the sine of t3 beyond 1, `beyond` out of
-    reach, None standing for a failure.
+    may be ``"front"`` or ``"back"``. `slack` is allowed for rounding of the sine of t3; where it is pushed beyond 1 the
+    function `fails`. `beyond` is returned out of reach, None standing for a failure.
     """
-    case = name_case(U, a3, d3)
-    if case == BEYOND:
+    excess = abs(elbow_sine(U, a3, d3)) - 1
+    if fails and 0 < excess <= ALLOWED:
+        return None
+    if excess > slack:
         return beyond
-    if case == ON_LIMIT and on_limit != "own" and abs(elbow_sine(U, a3, d3)) > 1:
-        return on_limit
     pose = np.array(U, dtype=float)
+    if excess > ALLOWED:  # the elbow is straight, or folded, as far as it goes
+        pose[:3, 3] *= (a3 + d3 if elbow_sine(U, a3, d3) < 0 else abs(a3 - d3)) / np.linalg.norm(pose[:3, 3])
     if hand == "printed":  # The printed hand is turned over about X6, and t6 counts the other way.
         pose = pose @ ABOUT_X
     found = _solve(pose, a3, d3)
@@ -255,6 +260,7 @@ def draw_poses(rng: np.random.Generator) -> list[list]:
         [_draw_turned(rng, (0, 1.0, 0)), 0.375, 0.625]
     ]
     found += [_draw_rounded_limit(rng) for _ in range(3)]
+    found += [_draw_near_limit(rng, factor * ALLOWED) for factor in (0.1, 10)]
     beyond = [
         ((0.9, 0.3, 0.2), 0.45, 0.45),
         ((-0.1, 0.1, 0.1), 0.5, 0.25),
@@ -293,13 +299,22 @@ def _draw_rounded_limit(rng: np.random.Generator) -> list:
             return [pose, a3, d3]
 
 
+def _draw_near_limit(rng: np.random.Generator, excess: float) -> list:
+    """A pose beside full reach, whose sine of t3 is `excess` beyond -1."""
+    a3, d3 = LENGTHS[1]
+    up, around = rng.uniform(-1, 1), rng.uniform(-np.pi, np.pi)
+    r = np.sqrt(a3**2 + d3**2 + 2 * a3 * d3 * (1 + excess))
+    point = r * np.array([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)])
+    return [_draw_turned(rng, point), a3, d3]
+
+
 ON_LIMIT, WITHIN, BEYOND = "poses on a limit of the elbow", "poses within reach", "poses out of reach"
 
 
 def name_case(U, a3: float, d3: float) -> str:
     """The case a pose belongs to, in words."""
     sine = elbow_sine(U, a3, d3)
-    if abs(abs(sine) - 1) < 1e-9:
+    if abs(abs(sine) - 1) < ALLOWED:
         return ON_LIMIT
     return WITHIN if abs(sine) < 1 else BEYOND
 

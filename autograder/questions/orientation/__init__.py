@@ -313,7 +313,14 @@ QUESTIONS = (
         reference=zyz,
         mistakes=(
             one_triple_only(steps=(keep_one_of_bent(0), keep_one_of_bent(-1))),
-            lock_not_switched({"switched": False}),
+            lock_not_switched({"lock": -1.0}),
+            mistake(
+                "lock_seen_too_early",
+                0.7,
+                "**Near the lock your function is wrong.** A wrist that is bent by a tenth of a degree still has its two triples: how does "
+                "your code decide that it is stretched?",
+                wrong=[{"lock": 1e-7}, {"lock": 1e-2}],
+            ),
             mistake(
                 "slide_misprint",
                 0.5,

@@ -7,7 +7,6 @@ import sympy
 
 from autograder.judge import Family
 from autograder.reference.orientation import (
-    euler_angles,
     euler_matrix,
     rpy,
     rpy_matrix,
@@ -134,15 +133,20 @@ OUTER, ALL = (0, 2), (0, 1, 2)
 # ---------------------------------------------------------------- the spherical wrist as a function
 
 
-def zyz(rows, *, switched=True):
-    """All [t4, t5, t6] for a rotation (3, 3); at the lock a `Family`, unless the formulas are not `switched`."""
+AT_LOCK = 1e-9  # sin(t5), as the statement says
+
+
+def zyz(rows, *, lock=AT_LOCK):
+    """All [t4, t5, t6] for a rotation (3, 3); a `Family` where sin(t5) is below `lock`."""
     matrix = np.array(rows, dtype=float)
-    found = euler_angles(matrix, "zyz", intrinsic=True)
-    if not found.singular:
-        return found.angles.tolist()
-    if not switched:
+    if np.hypot(matrix[0, 2], matrix[1, 2]) > lock:
         return _solve_in_general(matrix)
-    return Family([found.family(0.0).tolist(), found.family(float(found.combination)).tolist()])
+    # What is left at the lock: the sum of t4 and t6 for the stretched wrist, their difference for the folded one.
+    if matrix[2, 2] > 0:
+        total = float(np.arctan2(matrix[1, 0] - matrix[0, 1], matrix[0, 0] + matrix[1, 1]))
+        return Family([[0.0, 0.0, total], [total, 0.0, 0.0]])
+    total = float(np.arctan2(matrix[1, 0] + matrix[0, 1], matrix[1, 1] - matrix[0, 0]))
+    return Family([[0.0, np.pi, total], [-total, np.pi, 0.0]])
 
 
 def _solve_in_general(matrix) -> list[list[float]]:
@@ -174,14 +178,18 @@ def draw_rotations(rng: np.random.Generator) -> list[list]:
     bent += [[0, quarter, 0], [quarter, quarter, -quarter], [np.pi, quarter, quarter], [0.7, -quarter, 0.0]]
     stretched = [[0, 0, 0], [0.4, 0, 0.9], [2.0, 0, 2.5], [quarter, 0, quarter]]
     folded = [[0, np.pi, 0], [0.4, np.pi, 0.9], [-2.0, np.pi, 1.1]]
-    matrices = euler_matrix(bent + stretched + folded, "zyz", intrinsic=True)
-    return [[(np.round(matrix, 12) + 0.0).tolist()] for matrix in matrices]
+    matrices = np.round(euler_matrix(bent + stretched + folded, "zyz", intrinsic=True), 12) + 0.0
+    # A tenth of a degree beside both locks; then ten times, and a tenth of, what the statement takes for a lock.
+    beside = [np.radians(0.1), np.pi - np.radians(0.1), 10 * AT_LOCK, AT_LOCK / 10]
+    nearly = euler_matrix([[0.8, angle, -2.0] for angle in beside], "zyz", intrinsic=True)
+    return [[matrix.tolist()] for matrix in (*matrices, *nearly)]
 
 
 def name_bend(rows) -> str:
     """The case a rotation belongs to, in words."""
-    if np.hypot(rows[0][2], rows[1][2]) > 1e-9:
-        return "a bent wrist"
+    bend = np.hypot(rows[0][2], rows[1][2])
+    if bend > AT_LOCK:
+        return "a bent wrist" if bend > 0.01 else "a wrist that is nearly stretched, or nearly folded back"
     return "the stretched wrist (t5 = 0)" if rows[2][2] > 0 else "the wrist folded back (t5 = pi)"
 
 

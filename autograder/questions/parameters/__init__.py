@@ -289,6 +289,13 @@ QUESTIONS = (
                 "**a changes with the lengths of u and v.** Divide the cross product by its length before you measure along it.",
                 wrong={"scaled": False},
             ),
+            mistake(
+                "tolerance_too_wide",
+                0.8,
+                "**Axes that are almost parallel, or almost meet, are taken for parallel or meeting.** The statement says below which size "
+                "rounding may be blamed: yours is wider.",
+                wrong={"slack": 1e-6},
+            ),
         ),
         probe=draw_axes,
         case=name_axes,

@@ -157,16 +157,24 @@ def leave_out_half_turns(*rows: int):
 # ---------------------------------------------------------------- a and alpha of any two axes
 
 
-def find_link(P, u, Q, v, *, distance="lines", scaled=True, parallel=True) -> list[float]:
+ALLOWED = 1e-9  # for rounding, as the statement says
+
+
+def find_link(P, u, Q, v, *, distance="lines", scaled=True, parallel=True, slack=ALLOWED) -> list[float]:
     """[a, alpha] of two axes, each a point and a direction, (3,).
 
     `distance` may be that of the ``"points"``; not `scaled`, it grows with the directions. Without `parallel` the
-    function divides by the length of the cross product, whatever it is.
+    function divides by the length of the cross product, whatever it is. Below `slack` the axes are taken for parallel, or
+    for meeting.
     """
     size = np.linalg.norm(np.cross(u, v))
-    if not parallel and size < 1e-9 * np.linalg.norm(u) * np.linalg.norm(v):
+    if not parallel and size < ALLOWED * np.linalg.norm(u) * np.linalg.norm(v):
         raise ZeroDivisionError("the axes are parallel")
     a, alpha = link((P, u), (Q, v))
+    if slack > ALLOWED:
+        if size < slack:
+            a = float(np.linalg.norm(np.cross(np.subtract(Q, P), u)) / np.linalg.norm(u))
+        alpha = abs(alpha) if a < slack else alpha
     if distance == "points":
         a = float(np.linalg.norm(np.subtract(Q, P)))
     return [a if scaled or size <= 1e-9 else a * size, alpha]
@@ -197,4 +205,8 @@ def draw_axes(rng: np.random.Generator) -> list[list]:
         q = p + rng.uniform(0.5, 1) * u + rng.uniform(0.5, 1) * v
         pairs.append((p, u, q, v))
     pairs.append(([0, 0, 1], [0, 0, 1], [0, 0.5, 0], [0, 3, 0]))
+    for angle in (10 * ALLOWED, ALLOWED / 10):  # ten times, and a tenth of, what the statement takes for parallel
+        pairs.append(([0, 0, 0], [1, 0, 0], [0.1, 0.3, 0.4], [1, 0, angle]))
+    for way in (10 * ALLOWED, ALLOWED / 10):  # the same for axes that meet; seen along the way, the twist is negative
+        pairs.append(([0, 0, 0], [1, 0, 0], [0, 0, way], [0.8, -0.6, 0]))
     return [[np.asarray(part, dtype=float).tolist() for part in pair] for pair in pairs]

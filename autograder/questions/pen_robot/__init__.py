@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import numpy as np
 import sympy
 
 from autograder.judge import Follow, Question, following, mistake
-from autograder.judge.misconceptions import columns_exchanged, offset_missing, option, tool_left_out
+from autograder.judge.misconceptions import columns_exchanged, offset_missing, option, tolerance_too_wide, tool_left_out
 from autograder.judge.steps import change_entry, substitute
 
 from .model import (
@@ -184,7 +185,20 @@ QUESTIONS = (
                 0.4,
                 "**Your function answers for points that the pen cannot reach.** Three equations, two unknowns: one equation is left over "
                 "as a condition. Put every solution into the direct model before you return it.",
-                wrong=[{"checked": False}, {"checked": False, "signs": (1,)}],
+                wrong=[{"slack": np.inf}, {"slack": np.inf, "signs": (1,)}],
+            ),
+            tolerance_too_wide(
+                {"slack": 1e-3},
+                {"slack": 5e-3},
+                feedback="**Your function answers for points beside the surface.** Some tenths of a millimetre are no rounding: the "
+                "statement says how much to allow.",
+            ),
+            mistake(
+                "surface_taken_too_narrow",
+                0.7,
+                "**Points of the surface come back without a solution.** Rounding moves a point a hair off it: leave the small tolerance of "
+                "the statement.",
+                wrong=[{"slack": 1e-8}, {"slack": 1e-14}],
             ),
             mistake(
                 "sign_of_the_side",

@@ -74,17 +74,20 @@ def robot(h1, L1, h2, L2, p1):
 # ---------------------------------------------------------------- the inverse model
 
 
-def inverse(px, py, pz, h1, L1, H, p1, *, signs=(1, -1), side=1, checked=True, angle=np.arctan2) -> list[list[float]]:
+ALLOWED = 1e-6  # metres beside the surface, as the statement says
+
+
+def inverse(px, py, pz, h1, L1, H, p1, *, signs=(1, -1), side=1, slack=ALLOWED, angle=np.arctan2) -> list[list[float]]:
     """All [theta1, phi] of a point, [] off the surface.
 
-    `signs` are those of rho, `side` is that of the arm beside the tip; not `checked`, points off the surface get
+    `signs` are those of rho, `side` is that of the arm beside the tip; points nearer to the surface than `slack` get
     solutions; `angle` finds phi from the ways ahead and up.
     """
     square = px**2 + py**2 - H**2
     found = []
     for sign in signs if square >= 0 else ():
         rho = sign * np.sqrt(square)
-        if not checked or abs(np.hypot(rho - L1, pz - h1) - p1) < 1e-6:
+        if abs(np.hypot(rho - L1, pz - h1) - p1) < slack:
             found.append([np.arctan2(py, px) - side * np.arctan2(H, rho), angle(rho - L1, pz - h1)])
     return found
 
@@ -115,6 +118,10 @@ def draw_places(rng: np.random.Generator) -> list[list[float]]:
         for turn in (rng.uniform(-np.pi, np.pi), rng.uniform(-np.pi, np.pi)):
             px, py, pz = _point(turn, rng.uniform(0.2, 2.9), sizes)
             found += [(1.04 * px, 1.04 * py, pz, *sizes), (px, py, pz + 0.01, *sizes)]
+        # A tenth of what is allowed for rounding; then some tenths of a millimetre, and ten times as much.
+        for beside in (ALLOWED / 10, -ALLOWED / 10, 2e-4, -4e-4, 3e-3):
+            longer = (height, out, side, pen + beside)
+            found.append((*_point(rng.uniform(-np.pi, np.pi), rng.uniform(0.3, 2.8), longer), *sizes))
         found.append((0.4 * side, 0.3 * side, height + 0.5 * pen, *sizes))
         if pen > out:
             for angle in -np.pi / 2 + rng.uniform(-0.8, 0.8, 5) * behind:
@@ -134,7 +141,7 @@ def name_place(px, py, pz, h1, L1, H, p1) -> str:
         return "points nearer to axis 1 than H"
     residuals = [np.hypot(sign * np.sqrt(square) - L1, pz - h1) - p1 for sign in (1, -1)]
     names = ("points in front of axis 1", "points behind axis 1")
-    return next((name for name, residual in zip(names, residuals) if abs(residual) < 1e-6), "points off the surface")
+    return next((name for name, residual in zip(names, residuals) if abs(residual) < ALLOWED), "points off the surface")
 
 
 def pair_residual(q, *args) -> np.ndarray:

@@ -19,6 +19,7 @@ from autograder.judge.misconceptions import (
     posture_missing,
     product,
     reversed_product,
+    tolerance_too_wide,
     tool_in_joint_row,
     tool_left_out,
     tool_twice,
@@ -207,19 +208,20 @@ QUESTIONS = (
             atan_for_atan2(
                 wrong=[
                     {"direction": atan},
-                    {"direction": atan, "clipped": False, "beyond": None},
+                    {"direction": atan, "slack": 0.0, "beyond": None},
                     {"direction": failing_atan},
-                    {"direction": failing_atan, "clipped": False, "beyond": None},
+                    {"direction": failing_atan, "slack": 0.0, "beyond": None},
                 ],
             ),
-            fails_on_limit({"clipped": False, "beyond": None}),
+            fails_on_limit({"slack": 0.0, "beyond": None}),
             mistake(
                 "limit_taken_for_out_of_reach",
                 0.7,
                 "**Some targets on a limit come back without a solution.** Rounding pushes the cosine of t2 a hair above "
                 "1: leave a small tolerance before you say that a target is out of reach.",
-                wrong={"clipped": False},
+                wrong=[{"slack": 0.0}, {"slack": 1e-12}],
             ),
+            tolerance_too_wide({"slack": 1e-6}),
             mistake(
                 "out_of_reach_fails",
                 0.7,

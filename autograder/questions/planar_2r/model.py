@@ -58,15 +58,16 @@ def solve_own(mine) -> list[list[float]]:
     return solve(mine.x, mine.y, mine.L1, mine.L2)
 
 
-def inverse(px, py, l1, l2, *, direction=np.arctan2, clipped=True, beyond=()):
+def inverse(px, py, l1, l2, *, direction=np.arctan2, slack=two_link.ALLOWED, beyond=()):
     """All [t1, t2] for a target.
 
     `direction` of the target may lose a quadrant, or its value. `beyond` is returned out of reach, None standing for a
-    failure. Without clipping, targets on a limit fall out of reach by rounding.
+    failure. Without `slack` for the cosine, targets on a limit fall out of reach by rounding.
     """
-    lost = not clipped and abs(two_link.elbow_cosine(px, py, l1, l2)) > 1
-    if lost or two_link.classify(px, py, l1, l2) == two_link.BEYOND:
+    if two_link.classify(px, py, l1, l2, slack) == two_link.BEYOND:
         return beyond
+    if two_link.classify(px, py, l1, l2) == two_link.BEYOND:
+        px, py = two_link.pull_onto_limit(px, py, l1, l2)
     heading = direction(py, px)
     if heading is None:
         return None
@@ -91,6 +92,11 @@ def draw_targets(rng: np.random.Generator) -> list[list[float]]:
     # Binary fractions: on these limits the elbow cosine is exactly 1 or -1 however it is computed.
     found += [(0.75, 0.0, 0.5, 0.25), (0.0, -0.75, 0.5, 0.25), (0.25, 0.0, 0.5, 0.25), (-0.25, 0.0, 0.25, 0.5)]
     found += [two_link.draw_rounded_limit(rng) for _ in range(3)]
+    found += [
+        two_link.draw_near_limit(rng, factor * two_link.ALLOWED, inner)
+        for factor in (0.1, 10)
+        for inner in (False, True)
+    ]
     found += [(1.0, 0.3, 0.5, 0.4), (-0.2, 0.1, 0.9, 0.3), (0.02, 0.0, 0.5, 0.4), (3.0, 4.0, 1.0, 1.0)]
     return [[float(value) for value in args] for args in found]
 

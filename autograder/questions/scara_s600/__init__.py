@@ -15,6 +15,7 @@ from autograder.judge.misconceptions import (
     reversed_product,
     rows_shifted,
     symbol_negated,
+    tolerance_too_wide,
 )
 from autograder.judge.steps import change_cell, in_each_row, negate
 
@@ -172,10 +173,18 @@ QUESTIONS = (
                 wrong=[{"constant_sign": 0}, {"constant_sign": 1}],
             ),
             fails_on_limit(
-                {"clipped": False},
+                {"fails": True},
                 feedback="**On a limit your function fails.** Rounding pushes a cosine a hair above 1, where no sine is left. What must "
                 "the cosine be on the limit?",
             ),
+            mistake(
+                "limit_taken_for_out_of_reach",
+                0.8,
+                "**Some poses on a limit come back without a solution.** Rounding pushes the cosine of t2 a hair above 1: leave the small "
+                "tolerance of the statement before you say that a pose is out of reach.",
+                wrong=[{"slack": 0.0}, {"slack": 1e-12}],
+            ),
+            tolerance_too_wide({"slack": 1e-6}),
             mistake(
                 "centre_divides_by_zero",
                 0.8,

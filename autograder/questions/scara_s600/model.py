@@ -68,15 +68,21 @@ def robot(length2, length3, constant) -> robots.Robot:
     return robots.adept_s600(length2, length3, constant)
 
 
-def mgi(x, y, z, omega, length2, length3, constant, *, constant_sign=-1, clipped=True, divided=False):
+def mgi(
+    x, y, z, omega, length2, length3, constant, *, constant_sign=-1, slack=two_link.ALLOWED, fails=False, divided=False
+):
     """All [t1, t2, r3, t4] for a pose, a `Family` at the centre of an arm with equal links.
 
-    `constant_sign` is that of r30 in r3, 0 where it is left out. Without clipping the function fails where rounding has
-    pushed the elbow cosine beyond 1; with a division it fails at the centre.
+    `constant_sign` is that of r30 in r3, 0 where it is left out. `slack` is allowed for rounding of the elbow cosine; where
+    it is pushed beyond 1 the function `fails`. With a division it fails at the centre.
     """
     case = name_case(x, y, z, omega, length2, length3, constant)
-    if not clipped and 1 < abs(two_link.elbow_cosine(x, y, length2, length3)) < 1 + 1e-9:
+    if fails and 0 < abs(two_link.elbow_cosine(x, y, length2, length3)) - 1 < two_link.ALLOWED:
         raise ValueError("math domain error")
+    if two_link.classify(x, y, length2, length3, slack) == two_link.BEYOND:
+        return []
+    if two_link.classify(x, y, length2, length3) == two_link.BEYOND:
+        x, y = two_link.pull_onto_limit(x, y, length2, length3)
     if divided and case == AT_CENTRE:
         raise ZeroDivisionError("float division by zero")
     found = robot(length2, length3, constant).inverse((x, y, z, omega))
@@ -119,6 +125,9 @@ def draw_poses(rng: np.random.Generator) -> list[list[float]]:
     for _ in range(2):
         x, y, l2, l3 = two_link.draw_rounded_limit(rng)
         found.append([x, y, *_draw_height_and_direction(rng), l2, l3, -0.05])
+    for factor, inner in ((0.1, False), (0.1, True), (10, False), (10, True)):
+        x, y, l2, l3 = two_link.draw_near_limit(rng, factor * two_link.ALLOWED, inner)
+        found.append([x, y, *_draw_height_and_direction(rng), l2, l3, 0.05])
     found += [[0.5, 0.4, -0.1, 0.5, 0.325, 0.275, 0.0], [0.02, 0.01, -0.1, 0.5, 0.325, 0.275, 0.0]]
     found += [[0.0, 0.0, -0.15, 0.5, 0.5, 0.5, -0.05]]
     return [[float(value) for value in args] for args in found]

@@ -9,6 +9,7 @@ import numpy as np
 
 from autograder.reference import robots
 
+ALLOWED = 1e-9  # for rounding, as the statements say
 ON_LIMIT, WITHIN, BEYOND = "on a limit", "within reach", "out of reach"
 
 
@@ -17,12 +18,10 @@ def elbow_cosine(x: float, y: float, l1: float, l2: float) -> float:
     return (x * x + y * y - l1 * l1 - l2 * l2) / (2 * l1 * l2)
 
 
-def classify(x: float, y: float, l1: float, l2: float) -> str:
-    """The case a target belongs to: `ON_LIMIT`, `WITHIN` or `BEYOND`."""
-    r = np.hypot(x, y)
-    if min(abs(r - l1 - l2), abs(r - abs(l1 - l2))) < 1e-9:
-        return ON_LIMIT
-    return WITHIN if abs(l1 - l2) < r < l1 + l2 else BEYOND
+def classify(x: float, y: float, l1: float, l2: float, slack: float = ALLOWED) -> str:
+    """The case a target belongs to: `ON_LIMIT`, `WITHIN` or `BEYOND`; `slack` is allowed for rounding of the cosine."""
+    excess = abs(elbow_cosine(x, y, l1, l2)) - 1
+    return BEYOND if excess > slack else ON_LIMIT if excess > -ALLOWED else WITHIN
 
 
 def draw_posture(rng: np.random.Generator) -> tuple[float, float, float, float, float, float]:
@@ -54,3 +53,18 @@ def draw_rounded_limit(rng: np.random.Generator) -> tuple[float, float, float, f
         x, y = (l1 + l2) * np.cos(angle), (l1 + l2) * np.sin(angle)
         if elbow_cosine(x, y, l1, l2) > 1 + 4e-16:
             return x, y, l1, l2
+
+
+def draw_near_limit(rng: np.random.Generator, excess: float, inner: bool) -> tuple[float, float, float, float]:
+    """A target beside the outer or inner limit, where the elbow cosine is `excess` above 1, or below -1: (x, y, l1, l2)."""
+    l1, l2 = rng.permutation([rng.uniform(0.6, 0.8), rng.uniform(0.3, 0.4)])
+    r = np.sqrt(l1**2 + l2**2 + 2 * l1 * l2 * (-1 if inner else 1) * (1 + excess))
+    angle = rng.uniform(-np.pi, np.pi)
+    return r * np.cos(angle), r * np.sin(angle), l1, l2
+
+
+def pull_onto_limit(x: float, y: float, l1: float, l2: float) -> tuple[float, float]:
+    """The place on the limit next to a target out of reach."""
+    r = np.hypot(x, y)
+    nearest = l1 + l2 if elbow_cosine(x, y, l1, l2) > 0 else abs(l1 - l2)
+    return x * nearest / r, y * nearest / r

@@ -220,6 +220,13 @@ QUESTIONS = (
                 "matrix of row i.",
                 wrong={"early": True},
             ),
+            mistake(
+                "tolerance_of_the_rank",
+                0.8,
+                "**Two axes that are almost one line are counted wrongly.** The statement says below which size a singular value counts as "
+                "zero; numpy's own bound is another.",
+                wrong=[{"below": 1e-12}, {"below": 1e-4}],
+            ),
         ),
         probe=draw_tables,
         case=name_table,

@@ -83,6 +83,9 @@ PUMA_PRINTED_ROW = list_rows(robots.PUMA_PRINTED.table)[5]
 # ---------------------------------------------------------------- freedoms of a table of numbers
 
 
+COUNTS_AS_ZERO = 1e-6  # a singular value, as the statement says
+
+
 def screws(rows, *, slides=True, early=False, about_tip=False) -> np.ndarray:
     """Columns (Z_i, O_i x Z_i) of turning joints and (0, Z_i) of sliding ones, shape (6, n).
 
@@ -102,15 +105,18 @@ def screws(rows, *, slides=True, early=False, about_tip=False) -> np.ndarray:
     return np.transpose(columns)
 
 
-def freedoms(rows, *, count="rank", part=slice(None), slides=True, early=False, about_tip=False) -> int:
+def freedoms(
+    rows, *, count="rank", part=slice(None), slides=True, early=False, about_tip=False, below=COUNTS_AS_ZERO
+) -> int:
     """The rank of the screws of a table, (n, 5), or of a `part` of their six numbers.
 
-    `count` may be ``"joints"``, or ``"joints up to six"``; the other keywords are those of `screws`.
+    `count` may be ``"joints"``, or ``"joints up to six"``; singular values under `below` count as zero; the other keywords
+    are those of `screws`.
     """
     if count != "rank":
         return len(rows) if count == "joints" else min(len(rows), 6)
     found = screws(rows, slides=slides, early=early, about_tip=about_tip)
-    return int(np.linalg.matrix_rank(found[part], tol=1e-6))
+    return int(np.linalg.matrix_rank(found[part], tol=below))
 
 
 def draw_tables(rng: np.random.Generator) -> list[list]:
@@ -136,18 +142,22 @@ def draw_tables(rng: np.random.Generator) -> list[list]:
     found.append([[1, 0, 0, d, 0], [1, 0, half, a, half], [1, 0, half, t, 0]])  # a gantry
     found.append([[0, 0, 0, 0, t], [1, 0, 0, d, 0], [0, a, 0, 0, t], [1, 0, 0, a, 0]])  # two parallel slides
     found.append([[0, 0, -half, 0, t], [0, 0, half, 0, a], [0, 0, 0, d, t]])  # the wrist as printed, read as modified
-    return [[[[round(cell, 6) for cell in row] for row in rows]] for rows in found]
+    found = [[[round(cell, 6) for cell in row] for row in rows] for rows in found]
+    # Two axes almost on one line: the smallest singular value is a tenth, then ten times, of what counts as zero.
+    for size in (COUNTS_AS_ZERO / 10, 10 * COUNTS_AS_ZERO):
+        apart = float(size * np.sqrt(2))
+        found += [[[0, 0, 0, 0, t], [0, apart, 0, 0, 0]], [[0, 0, 0, d, 0], [0, apart, 0, 0, 0], [1, 0, 0, 0.2, 0]]]
+    return [[rows] for rows in found]
 
 
 def name_table(rows) -> str:
     """The case a table belongs to, in words."""
     if any(row[0] == 1 for row in rows):
         return "tables with a sliding joint"
-    return (
-        "sound tables of turning joints"
-        if freedoms(rows) == min(len(rows), 6)
-        else "tables with two joints on one line"
-    )
+    near = any(0 < abs(row[1]) < 1e-3 for row in rows)
+    if near or freedoms(rows) < min(len(rows), 6):
+        return "tables with two joints on one line, or almost"
+    return "sound tables of turning joints"
 
 
 # ---------------------------------------------------------------- a table from a list of joint origins

@@ -37,9 +37,13 @@ from .model import (
     divide,
     draw_matrices,
     failing_atan,
+    flat,
+    half_turn_forgotten,
     leave_alpha,
     misread_angles,
     name_twist,
+    project_by_angle,
+    project_on_axis,
     read_parameters,
     see_from_a,
     theta,
@@ -242,6 +246,21 @@ QUESTIONS = (
                     {"offset": divide(2, (2, 2))},
                     {"offset": divide(1, (1, 2))},
                     {"offset": lambda T, angle: T[2, 3] / np.cos(angle)},
+                ],
+            ),
+            mistake(
+                "half_turn_forgotten",
+                0.7,
+                "**With a twist of half a turn your function is wrong.** Where the sine of alpha vanishes the cosine is +1 or -1: look at what "
+                "each of the two does to alpha and to d.",
+                wrong=[
+                    {"offset": half_turn_forgotten},
+                    *(
+                        {"twist": flat, "turn": turn, "offset": d}
+                        for turn in (np.arctan2, flat)
+                        for d in (project_on_axis, project_by_angle)
+                    ),
+                    {"twist": flat, "offset": half_turn_forgotten},
                 ],
             ),
             mistake(

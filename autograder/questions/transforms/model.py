@@ -78,6 +78,16 @@ def divide(row, column):
     return offset
 
 
+def half_turn_forgotten(T, angle) -> float:
+    """d by one division, and the entry itself where there is no sine to divide by: half a turn turns its sign."""
+    return T[2, 3] if abs(T[1, 2]) < 1e-9 else T[1, 3] / T[1, 2]
+
+
+def flat(sine, cosine) -> float:
+    """No angle wherever there is no sine: half a turn is not seen."""
+    return 0.0 if abs(sine) < 1e-9 else float(np.arctan2(sine, cosine))
+
+
 def read_parameters(T, *, twist=np.arctan2, turn=np.arctan2, offset=project_on_axis) -> list[float]:
     """[a, alpha, d, theta] of a DHm matrix, (4, 4).
 
@@ -132,10 +142,21 @@ def draw_matrices(rng: np.random.Generator) -> list[list]:
         (0.25, -np.pi / 2, -0.2, 0.0),
         (0.4, 0.0, -0.15, np.pi / 2),
         (0.2, np.pi / 2, 0.5, 0.9),
+        (0.35, np.pi, 0.3, 1.1),
+        (0.15, np.pi, -0.45, -2.2),
+        (0.3, 0.0, 0.25, np.pi),
+        (0.1, -np.pi / 2, 0.4, np.pi),
+        (0.2, np.pi, 0.15, -np.pi / 2),
+        (0.25, 1.0, 0.2, 0.0),
+        (0.0, -2.0, -0.1, -np.pi / 2),
     ]
     return [[(np.round(np.array(modified_dh(*row), dtype=float), 12) + 0.0).tolist()] for row in drawn + round_twists]
 
 
 def name_twist(T) -> str:
     """The case a matrix belongs to, in words."""
-    return "a twist of 0 or a quarter turn" if min(abs(T[1][2]), abs(T[2][2])) < 1e-9 else "a twist of any other size"
+    return (
+        "a twist of 0, a quarter or half a turn"
+        if min(abs(T[1][2]), abs(T[2][2])) < 1e-9
+        else "a twist of any other size"
+    )
