@@ -32,6 +32,7 @@ from .model import (
     draw_ranges,
     full_turn_area,
     hold_as_they_come,
+    hold_turns_of,
     name_place,
     name_range,
     never,
@@ -252,6 +253,20 @@ QUESTIONS = (
                 "**Angles are compared without removing full turns.** Where the range goes beyond a half turn, -100 degrees and 260 "
                 "degrees are one direction.",
                 wrong=[{"allowed": hold_as_they_come}, {"allowed": hold_as_they_come, "wrapped": False}],
+            ),
+            mistake(
+                "turns_of_one_joint_removed",
+                0.7,
+                "**Full turns are removed for one of the joints only.** The range of either may go beyond a half turn: 200 degrees and -160 "
+                "degrees are one direction.",
+                wrong=[{"allowed": hold_turns_of(0)}, {"allowed": hold_turns_of(1)}],
+            ),
+            mistake(
+                "second_posture_only_after_the_first",
+                0.6,
+                "**The second posture is looked at only where the first one is allowed.** The stops may forbid either of them and leave the "
+                "other.",
+                wrong=[{"needs_first": True}, {"needs_first": True, "elbows": slice(None, None, -1)}],
             ),
         ),
         probe=draw_places,

@@ -169,16 +169,26 @@ def hold_as_they_come(q, limits) -> bool:
     return all(low <= angle <= high for angle, (low, high) in zip(q, limits))
 
 
-def count(x, y, lengths, limits, *, allowed=hold_modulo_turns, elbows=slice(None), wrapped=True) -> int:
+def hold_turns_of(joint: int):
+    """Full turns are removed for one joint only, 0 or 1."""
+    other = 1 - joint
+    return lambda q, limits: lies_between(q[joint], *limits[joint]) and limits[other][0] <= q[other] <= limits[other][1]
+
+
+def count(
+    x, y, lengths, limits, *, allowed=hold_modulo_turns, elbows=slice(None), wrapped=True, needs_first=False
+) -> int:
     """How many postures within the stops bring the hand to (x, y).
 
-    `allowed` says whether limits (2, 2) hold two angles, `elbows` which of both postures are seen. Not `wrapped`,
-    theta1 is the difference of two atan2, anywhere in (-2 pi, 2 pi).
+    `allowed` says whether limits (2, 2) hold two angles, `elbows` which of both postures are seen, in this order. Not
+    `wrapped`, theta1 is the difference of two atan2, anywhere in (-2 pi, 2 pi). With `needs_first` the second posture is
+    looked at only if the first one is allowed.
     """
     postures = _postures(x, y, *lengths)[elbows]
     if not wrapped:
         postures = [(_theta1(x, y, *lengths, bend), bend) for _, bend in postures]
-    return int(sum(bool(allowed(q, limits)) for q in postures))
+    held = [bool(allowed(q, limits)) for q in postures]
+    return 0 if needs_first and held[:1] != [True] else int(sum(held))
 
 
 def _theta1(x, y, l1, l2, bend) -> float:
@@ -187,21 +197,52 @@ def _theta1(x, y, l1, l2, bend) -> float:
 
 def draw_places(rng: np.random.Generator) -> list[list]:
     """Argument lists (x, y, lengths, limits): points that two, one or no posture reaches, well away from every edge."""
-    wanted = dict.fromkeys(("two", "one", "forbidden", "beyond"), 5) | {"turned": 5}
+    kinds = {
+        "two": 5,
+        "one elbow 0": 3,
+        "one elbow 1": 3,
+        "forbidden": 5,
+        "beyond": 5,
+        "turned joint 0": 3,
+        "turned joint 1": 3,
+    }
     found = []
-    while any(wanted.values()):
-        lengths = [float(rng.uniform(0.4, 0.6)), float(rng.uniform(0.2, 0.38))]
-        turned = rng.random() < 0.3
-        low = rng.uniform(1.2, 1.9) if turned else rng.uniform(-2.0, -0.5)
-        limits = [[low, low + rng.uniform(2.6, 3.3)], [-rng.uniform(0.4, 1.6), rng.uniform(1.5, 2.7)]]
-        limits = [[float(value) for value in row] for row in limits]
-        r, angle = rng.uniform(0.05, 1.1) * sum(lengths), rng.uniform(-np.pi, np.pi)
-        x, y = float(r * np.cos(angle)), float(r * np.sin(angle))
-        name = _classify(x, y, lengths, limits)
-        if wanted.get(name) and _clear_of_edges(x, y, lengths, limits):
-            wanted[name] -= 1
-            found.append([x, y, lengths, limits])
+    for kind, number in kinds.items():
+        while number:
+            place = _draw_place(rng, turned=kind)
+            if _kind(*place) == kind and _clear_of_edges(*place):
+                number -= 1
+                found.append(place)
     return found
+
+
+def _draw_place(rng: np.random.Generator, turned: str) -> list:
+    lengths = [float(rng.uniform(0.4, 0.6)), float(rng.uniform(0.2, 0.38))]
+    low, bent = rng.uniform(-2.0, -0.5), [-rng.uniform(0.4, 1.6), rng.uniform(1.5, 2.7)]
+    if turned == "turned joint 0":
+        low = rng.uniform(1.2, 1.9)
+    elif turned == "turned joint 1":
+        bent = [rng.uniform(1.3, 1.8), rng.uniform(4.4, 4.9)]
+    elif rng.random() < 0.5:
+        bent = [-bent[1], -bent[0]]
+    limits = [[float(value) for value in row] for row in ([low, low + rng.uniform(2.6, 3.3)], bent)]
+    r, angle = rng.uniform(0.05, 1.1) * sum(lengths), rng.uniform(-np.pi, np.pi)
+    return [float(r * np.cos(angle)), float(r * np.sin(angle)), lengths, limits]
+
+
+def _kind(x, y, lengths, limits) -> str:
+    """Which elbow is the one that is allowed, or which joint needs its full turns removed, beside the case of a place."""
+    case = _classify(x, y, lengths, limits)
+    if case == "one":
+        return f"one elbow {0 if count(x, y, lengths, limits, elbows=slice(0, 1)) else 1}"
+    if case == "turned":
+        missed = [
+            j
+            for j in (0, 1)
+            if count(x, y, lengths, limits, allowed=hold_turns_of(1 - j)) < count(x, y, lengths, limits)
+        ]
+        return f"turned joint {missed[0]}" if len(missed) == 1 else "turned"
+    return case
 
 
 def _classify(x, y, lengths, limits) -> str:
