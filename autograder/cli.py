@@ -192,6 +192,18 @@ def _parser() -> argparse.ArgumentParser:
         text = f"{limit.metadata['help']} (default {_shown(limit)})"
         sandbox.add_argument(f"--{limit.name.replace('_', '-')}", type=read, metavar=metavar, help=text)
 
+    explain = command(
+        "explain",
+        _explain,
+        "Say how one verdict came about: run the notebook once more and show what was read and compared.",
+        "autograder explain 'Ada Lovelace' scara.T04 --html appeal.html",
+    )
+    explain.add_argument("student", help="id, or name on the roster")
+    explain.add_argument("question", help="for example scara.T04")
+    explain.add_argument("--with-answer", action="store_true", help="also show what is right; not to be forwarded")
+    explain.add_argument("--html", metavar="FILE", help="write it as a page that can be forwarded")
+    explain.add_argument("--sandbox", choices=("bwrap", "none"), help="'none' runs students' code unprotected, as you")
+
     feedback = command(
         "feedback", _feedback, "Write the feedback pages of all graded submissions.", "autograder feedback scara"
     )
@@ -298,7 +310,7 @@ def _grade(options) -> int:
 
     from autograder.grading.pipeline import grade
     from autograder.grading.results import without_notebook
-    from autograder.grading.table import class_table, progress_bar, summary
+    from autograder.grading.table import changes_table, class_table, progress_bar, summary
 
     given = {limit.name: getattr(options, limit.name) for limit in fields(Limits)} | {"mode": options.sandbox}
     course = _course(
@@ -317,8 +329,27 @@ def _grade(options) -> int:
             print(json.dumps(result.as_json()))
     else:
         class_table(results)
+        changes_table(results)
         summary(course, results)
     return int(any(result.status == "failed" for result in results))
+
+
+def _explain(options) -> int:
+    from pathlib import Path
+
+    from traitlets.config import Config
+
+    from autograder.grading.explain import as_page, as_text, explain
+    from autograder.grading.files import write_whole
+
+    page = Path(options.html).absolute() if options.html else None
+    config = Config(SandboxExecute={"mode": options.sandbox}) if options.sandbox else None
+    found = explain(_course(options, config), options.student, options.question)
+    print(as_text(found, options.with_answer))
+    if page is not None:
+        write_whole(page, as_page(found, options.with_answer).encode())
+        print(page)
+    return 0
 
 
 def _feedback(options) -> int:

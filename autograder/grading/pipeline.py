@@ -13,11 +13,13 @@ from __future__ import annotations
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import closing, contextmanager
+from dataclasses import replace
 
 import nbformat
 
 from autograder.sandbox import cancel_runs
 
+from .changes import by_hand, moved, points_given
 from .course import Course, convert
 from .errors import CourseError, in_words
 from .folders import released_path
@@ -32,7 +34,7 @@ from .plugins.autograde import (
 )
 from .plugins.feedback import FeedbackPages
 from .plugins.preprocessors import SandboxExecute
-from .results import Result, read_result
+from .results import Result, graded_notebooks, read_result
 from .store import StoredNotebook, stored_notebooks
 from .submission.execution import Execution
 from .submission.reading import fingerprint
@@ -77,6 +79,11 @@ def grade(
                 _write_pages(course, student, force=False)
         if status[student] == "unchanged":
             progress(student)
+    points = {
+        student: points_given(graded_notebooks(course, student, exercise))
+        for student, what in status.items()
+        if what == "graded" and student in stored
+    }
     if "graded" in status.values():
         refuse_unless_fit(converter)
 
@@ -91,7 +98,7 @@ def grade(
             with _noting(failures, student):
                 _store(course, student, future.result())
             progress(student)
-    stored = _stored(course, exercise)
+    before, stored = stored, _stored(course, exercise)
     unusable = [
         Result(terminal_text(name), exercise, "failed", remarks=(reason,))
         for name, reason in course.unusable_folders(exercise).items()
@@ -99,9 +106,26 @@ def grade(
     return unusable + [
         Result(student, exercise, "failed", remarks=(failures[student],))
         if student in failures
-        else read_result(course, stored.get(student, {}), student, exercise, status[student])
+        else _compared(
+            read_result(course, stored.get(student, {}), student, exercise, status[student]),
+            before.get(student, {}),
+            stored.get(student, {}),
+            points.get(student, {}),
+        )
         for student in students
     ]
+
+
+def _compared(
+    result: Result,
+    before: Mapping[str, StoredNotebook],
+    after: Mapping[str, StoredNotebook],
+    points: Mapping[str, float],
+) -> Result:
+    """A result with what moved since the time before."""
+    if result.status != "graded":
+        return result
+    return replace(result, moved=moved(before, after, points), by_hand=by_hand(before, after, points))
 
 
 @contextmanager

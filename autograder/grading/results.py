@@ -45,6 +45,8 @@ class Result:
         What was wrong with the notebook as a whole, in words that can be forwarded.
     feedback : str or None
         Path of the HTML page.
+    moved, by_hand : tuple of str
+        What changed against the time before, and what a lecturer typed (see `changes`).
     """
 
     student: str
@@ -55,6 +57,8 @@ class Result:
     answers: tuple[QuestionResult, ...] = ()
     remarks: tuple[str, ...] = ()
     feedback: str | None = None
+    moved: tuple[str, ...] = ()
+    by_hand: tuple[str, ...] = ()
 
     def found(self) -> str:
         """What was found, on one line, by order of questions: ``"T04: sign_of_d2; U1: not_attempted"`` or ``"all right"``."""

@@ -72,6 +72,17 @@ def class_table(results: Sequence[Result]) -> None:
     _console().print(table)
 
 
+def changes_table(results: Sequence[Result]) -> None:
+    """Whose points moved and why, and what was typed by hand and kept; nothing if there is neither."""
+    for title, column in (("moved since it was graded before", "moved"), ("typed by hand, and kept", "by_hand")):
+        rows = [(result.student, result.exercise, line) for result in results for line in getattr(result, column)]
+        if rows:
+            table = Table("student", "exercise", title)
+            for row in rows:
+                table.add_row(*map(_cell, row))
+            _console().print(table)
+
+
 def summary(course: Course, results: Sequence[Result]) -> None:
     """How many were graded, left alone or failed, and where the feedback is."""
     counts = Counter(result.status for result in results)

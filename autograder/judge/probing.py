@@ -28,16 +28,7 @@ def judge_results(question: Question, arguments: list[list], results: Sequence[D
     calls = list(zip(arguments, found, strict=True))
 
     def compare(ways: tuple[Way, ...], turn: float, args: list, result: object) -> Comparison:
-        expected = expect_result(question, ways, student, args)
-        setting = question.setting() if ways else question.setting(student, *args)
-        setting = replace(setting, turn=turn, family=expected.family)
-
-        def beside(other: object) -> Comparison:
-            if isinstance(result, Malformed) or isinstance(other, Malformed):
-                return Comparison(isinstance(result, Malformed) and isinstance(other, Malformed), 0.0)
-            return compare_answers(form, result, other, setting)
-
-        return nearest(beside(other) for other in expected.forms)
+        return compare_result(question, student, ways, turn, args, result)
 
     cases: dict[str, list[tuple[list, Comparison]]] = {}
     for args, result in calls:
@@ -61,6 +52,22 @@ def judge_results(question: Question, arguments: list[list], results: Sequence[D
             verdict, feedback="**Not right.** Your function returns the same for all arguments that were tried."
         )
     return verdict
+
+
+def compare_result(
+    question: Question, student: str, ways: tuple[Way, ...], turn: float, args: list, result: object
+) -> Comparison:
+    """What a student's function returned for `args` beside what the right one returns, or one with mistakes made."""
+    expected = expect_result(question, ways, student, args)
+    setting = question.setting() if ways else question.setting(student, *args)
+    setting = replace(setting, turn=turn, family=expected.family)
+
+    def beside(other: object) -> Comparison:
+        if isinstance(result, Malformed) or isinstance(other, Malformed):
+            return Comparison(isinstance(result, Malformed) and isinstance(other, Malformed), 0.0)
+        return compare_answers(question.returns, result, other, setting)
+
+    return nearest(beside(other) for other in expected.forms)
 
 
 def _count(answers: Iterable[set[str]]) -> int:

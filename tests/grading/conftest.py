@@ -1,9 +1,12 @@
 """A small course with three questions, and a class that hands in what classes hand in."""
 
+import ast
 import json
 import os
 import shutil
+from contextlib import contextmanager
 from copy import deepcopy
+from html import escape
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -13,10 +16,15 @@ import sympy
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
 from autograder import questions
+from autograder.grading import rendering
+from autograder.grading.cells import check_cells, notebook_record, question_id
 from autograder.grading.course import open_course
+from autograder.grading.plugins.preprocessors import SandboxExecute
 from autograder.grading.release import release
-from autograder.judge import Question, mistake
+from autograder.grading.submission.execution import Execution
+from autograder.judge import Evidence, Question, mistake
 from autograder.sandbox import available
+from dhkit import wire
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 CHECKS = {"scara-T04": 10, "scara-d2_sign": 4, "scara-forward": 6}
@@ -159,6 +167,43 @@ def course_copy(empty_course, tmp_path):
     root = tmp_path / "course"
     shutil.copytree(empty_course, root)
     return root
+
+
+def typed(source):
+    """What an answer cell hands in without being run: the text behind its last ``=``; blank for anything else."""
+    text = source.rpartition("=")[2].strip()
+    try:
+        return wire.encode(ast.literal_eval(text))
+    except (SyntaxError, ValueError):
+        return {"blank": True} if "undefined" not in text else None
+
+
+def prepared(self, nb, folder, released, student, course):
+    """What the sandbox would bring back of answers that are literals; ``undefined`` in one is an error."""
+    sources = {cell.metadata.nbgrader.grade_id: cell.source for cell in nb.cells if "nbgrader" in cell.metadata}
+    evidence = {}
+    for check in check_cells(nb):
+        answer = typed(sources[f"{check}-answer"])
+        packet = wire.packet(question_id(check), answer=answer)
+        evidence[check] = Evidence(packet) if answer else Evidence(None, None, "NameError: undefined", "error")
+    return Execution(notebook_record(nb).submission, {}, evidence)
+
+
+@pytest.fixture(scope="session")
+def without_kernels(registry):
+    """A context in which grading starts no process: answers are taken from their cells as they stand."""
+
+    @contextmanager
+    def context():
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(SandboxExecute, "run", prepared)
+            patch.setattr(SandboxExecute, "find_fault", lambda *settings: None)
+            for module in ("plugins.autograde", "explain"):
+                patch.setattr(f"autograder.grading.{module}.available", lambda: None)
+            patch.setattr(rendering.RENDERER, "render", lambda kind, text, *more: f"<pre>{escape(text)}</pre>")
+            yield
+
+    return context
 
 
 @pytest.fixture(scope="session")

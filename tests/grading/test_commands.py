@@ -30,7 +30,19 @@ def run(root, *words):
     return cli.main([*words, "--course", str(root)])
 
 
-COMMANDS = ("release", "roster", "collect", "grade", "feedback", "return", "report", "export", "bundle", "doctor")
+COMMANDS = (
+    "release",
+    "roster",
+    "collect",
+    "grade",
+    "explain",
+    "feedback",
+    "return",
+    "report",
+    "export",
+    "bundle",
+    "doctor",
+)
 
 
 @pytest.mark.parametrize("command", COMMANDS)

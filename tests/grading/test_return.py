@@ -4,40 +4,21 @@ import csv
 import io
 import json
 import re
+import shutil
 import zipfile
-from html import escape
 
 import pytest
 from nbgrader.api import Gradebook
 
 from autograder import cli
-from autograder.grading import rendering
-from autograder.grading.cells import check_cells, notebook_record, question_id
 from autograder.grading.course import open_course
 from autograder.grading.errors import CourseError
-from autograder.grading.plugins.preprocessors import SandboxExecute
 from autograder.grading.returning import return_canvas, return_moodle
-from autograder.grading.submission.execution import Execution
-from autograder.judge import Evidence
-from dhkit import wire
-
-
-def prepared(self, nb, folder, released, student, course):
-    """What the sandbox would bring back: of the questions, the choice is answered as its cell says."""
-    sources = {cell.metadata.nbgrader.grade_id: cell.source for cell in nb.cells if "nbgrader" in cell.metadata}
-    evidence = {}
-    for check in check_cells(nb):
-        answered = check == "scara-d2_sign" and "'B'" in sources[f"{check}-answer"]
-        answer = wire.encode("B") if answered else {"blank": True}
-        evidence[check] = Evidence(wire.packet(question_id(check), answer=answer))
-    return Execution(notebook_record(nb).submission, {}, evidence)
 
 
 @pytest.fixture(scope="module")
-def graded(registry, small, empty_course, released, tmp_path_factory):
+def graded(without_kernels, small, empty_course, released, tmp_path_factory):
     """A class collected from both platforms and graded: Ada 4 points and a bonus, Zoë 4, Ben 0; Cid sent a report, Dan nothing."""
-    import shutil
-
     root = tmp_path_factory.mktemp("return") / "course"
     shutil.copytree(empty_course, root)
     names = {"Ada": ("Lovelace", 4711), "Zoë": ("OBrien", 4712), "Ben": ("Moses", 4713), "Cid": ("Campeador", 4714)}
@@ -54,11 +35,7 @@ def graded(registry, small, empty_course, released, tmp_path_factory):
         "Ben Moses,Moses,Ben,3713,\nCid Campeador,Campeador,Cid,3714,\nDan,Dare,Dan,3715,scara\n",
         encoding="utf-8",
     )
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(SandboxExecute, "run", prepared)
-        patch.setattr(SandboxExecute, "find_fault", lambda *settings: None)
-        patch.setattr("autograder.grading.plugins.autograde.available", lambda: None)
-        patch.setattr(rendering.RENDERER, "render", lambda kind, text, *more: f"<pre>{escape(text)}</pre>")
+    with without_kernels():
         courses = {}
         for platform, content in (("moodle", moodle), ("canvas", canvas)):
             course = root.parent / platform
