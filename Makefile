@@ -18,7 +18,7 @@ grade: setup
 	  echo "*** No sandbox on this machine: the sample class, which is our own, is graded with --sandbox none. ***"; \
 	  echo "*** Never grade submissions of students that way. ***"; fi; \
 	$(BIN)/python tests/sample_class/write.py $(CLASS) --short $$class && \
-	$(BIN)/autograder release --course $(CLASS) && \
+	$(BIN)/autograder release --course $(CLASS) --home form && \
 	$(BIN)/autograder grade --course $(CLASS) --sandbox $$sandbox
 
 # All tests, and every notebook executed; a warning in a notebook is an error.

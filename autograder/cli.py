@@ -139,6 +139,14 @@ def _parser() -> argparse.ArgumentParser:
         "release", _release, "Make the students' notebooks from the solutions.", "autograder release scara"
     )
     release.add_argument("exercise", nargs="*", help="exercises to release (default: all)")
+    release.add_argument(
+        "--home",
+        choices=("sealed", "form"),
+        default="sealed",
+        help="what a student's copy tells: right or wrong and why, sealed under the answers (default), or the form only",
+    )
+    release.add_argument("--anew", action="store_true", help="seal with a new salt, for a new term")
+    release.add_argument("--table", action="store_true", help="print what is sealed, and the arithmetic behind it")
 
     roster = command(
         "roster",
@@ -266,10 +274,16 @@ def _course(options, config=None):
 
 def _release(options) -> int:
     from autograder.grading.release import release
+    from autograder.grading.table import progress_bar, sealed_table
+    from autograder.questions import of_exercise
 
     course = _course(options)
     for exercise in options.exercise or course.exercises():
-        changes = release(course, exercise)
+        with progress_bar(f"sealing {exercise}", len(of_exercise(exercise))) as told:
+            released = release(course, exercise, options.home, options.anew, told)
+        changes = released.changes
+        if options.table and released.decisions:
+            sealed_table(released.decisions)
         print(course.step("release", ".", exercise))
         for what, questions in (("new", changes.added), ("no longer asked", changes.removed)):
             if changes.submissions and questions:
@@ -321,7 +335,7 @@ def _grade(options) -> int:
         print("warning: no sandbox; students' code runs with your rights", file=sys.stderr)
     jobs, results = options.jobs or os.cpu_count() or 1, []
     for exercise, students in submissions.items():
-        with progress_bar(exercise, len(students)) as progress:
+        with progress_bar(f"grading {exercise}", len(students)) as progress:
             results += grade(course, exercise, students, jobs, options.force, progress)
         results += without_notebook(course, exercise) if not options.student else []
     if options.json:

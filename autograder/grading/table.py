@@ -11,6 +11,9 @@ from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
+from autograder.sealing import Decision
+from autograder.sealing.plausible import SECONDS_A_KEY, years
+
 from .collecting.collect import Row
 from .course import Course
 from .enrolment import Enrolled
@@ -24,13 +27,13 @@ _NOTES = 4
 
 
 @contextmanager
-def progress_bar(exercise: str, count: int) -> Iterator[Callable[[str], None]]:
-    """A bar on stderr; call what it gives with each student that is done."""
+def progress_bar(what: str, count: int) -> Iterator[Callable[[str], None]]:
+    """A bar on stderr; call what it gives with each student, or question, that is done."""
     last = TextColumn("{task.fields[last]}")
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), last)
     with Progress(*columns, console=Console(stderr=True)) as bar:
-        task = bar.add_task(f"grading {exercise}", total=count, last="")
-        yield lambda student: bar.update(task, advance=1, last=escape(terminal_text(student, 30)))
+        task = bar.add_task(what, total=count, last="")
+        yield lambda done: bar.update(task, advance=1, last=escape(terminal_text(done, 30)))
 
 
 def roster_table(lines: Sequence[Enrolled]) -> None:
@@ -81,6 +84,19 @@ def changes_table(results: Sequence[Result]) -> None:
             for row in rows:
                 table.add_row(*map(_cell, row))
             _console().print(table)
+
+
+def sealed_table(decisions: Sequence[Decision]) -> None:
+    """What a student's copy tells of each question, and the arithmetic: answers to try, and years to try half of them."""
+    table = Table("question", "answers to try", "years on one core", "mistakes", "parts", "at home")
+    for column in table.columns[1:5]:
+        column.justify = "right"
+    for one in decisions:
+        sealed = not one.why_not
+        time = f"{years(one.bits, SECONDS_A_KEY):.2g}" if sealed else ""
+        counts = (str(one.mistakes), str(one.parts)) if sealed else ("", "")
+        table.add_row(one.question, f"2^{one.bits:.0f}", time, *counts, "sealed" if sealed else one.why_not)
+    _console().print(table)
 
 
 def summary(course: Course, results: Sequence[Result]) -> None:

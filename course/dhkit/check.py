@@ -1,7 +1,8 @@
-"""``check`` hands an answer in; ``hint`` helps on the way.
+"""``check`` hands an answer in; ``hint`` helps on the way; ``solution`` shows how it goes, once the answer is right.
 
-``check`` never knows the right answer. It says whether the answer has the form that was asked for,
-runs the question's public checks, and leaves the encoded answer in the notebook for the grader.
+``check`` never knows the right answer. It says whether the answer has the form that was asked for, runs the question's
+public checks, opens the verdict that was sealed for this very answer if there is one (`dhkit.home`), and leaves the
+encoded answer in the notebook for the grader.
 """
 
 from __future__ import annotations
@@ -10,7 +11,9 @@ import json
 from collections.abc import Callable
 
 from . import public, variants, wire
-from .nodes import blanks, is_blank
+from .home.progress import latest, note
+from .home.verdict import Verdict, judge_at_home
+from .nodes import blanks
 from .notice import Line, Notice, show
 from .public_checks import run_public_check
 
@@ -40,7 +43,9 @@ def check(id: str, answer: object = ...) -> None:
         _functions[id] = function
     student = variants.typed(question.exercise)
     whose = {} if student is None else {"student": wire.encode(student)}
-    show(_notice(question, node, function), {wire.MIME: wire.packet(id, answer=node, **whose)})
+    found = judge_at_home(question, node, function)
+    note(id, found)
+    show(_notice(question, node, function, found), {wire.MIME: wire.packet(id, answer=node, **whose)})
 
 
 def hint(id: str, level: int = 1) -> None:
@@ -55,6 +60,23 @@ def hint(id: str, level: int = 1) -> None:
         if level < len(question.hints):
             lines.append(Line(None, f'more: hint("{id}", {level + 1})'))
     show(Notice(f"Hint: {question.title}", "", tuple(lines)))
+
+
+def solution(id: str) -> None:
+    """Show the worked solution of question `id`, once the answer handed in is right."""
+    from IPython.display import Markdown, display
+
+    question, found = public.find(id), latest(id)
+    if found is not None and found.solution:
+        display(Markdown(f"**Solution: {question.title}**\n\n{found.solution}"))
+        return
+    if found is not None and found.state == "undecided":
+        said = "the grader decides about this question, so its solution stays with the lecturer"
+    elif found is not None and found.state == "right":
+        said = "there is no worked solution for this question"
+    else:
+        said = f'it unfolds when your answer is right: check("{id}", ...)'
+    show(Notice(f"Solution: {question.title}", "", (Line(None, said),)))
 
 
 def answer_probes(id: str, arguments: str) -> None:
@@ -79,19 +101,23 @@ def answer_probes(id: str, arguments: str) -> None:
     show(Notice("", "", ()), {wire.MIME: wire.packet(id, probes=answers)})
 
 
-def _notice(question: public.PublicQuestion, node: object, function: Callable | None) -> Notice:
-    arranged = question.form.arranged(node)
-    if is_blank(arranged):
+def _notice(question: public.PublicQuestion, node: object, function: Callable | None, found: Verdict) -> Notice:
+    if found.state == "blank":
         return Notice(question.title, "not attempted yet", ())
-    if complaint := question.form.complaint(node):
-        return Notice(question.title, "not in the form asked for", (Line(False, complaint),))
-    if left := blanks(arranged):
-        said = f"{left} {'entry is' if left == 1 else 'entries are'} still ..."
-        return Notice(question.title, "partly attempted", (Line(False, said),))
-    lines = [Line(True, f"the form is right: {question.form.expected}")]
-    lines += [run_public_check(check, question.form, arranged, function) for check in question.public]
+    if found.state == "form":
+        return Notice(question.title, "not in the form asked for", (Line(False, found.text),))
+    arranged = question.form.arranged(node)
+    if blanks(arranged):
+        return Notice(question.title, "partly attempted", (Line(False, found.text),))
+    lines = [run_public_check(check, question.form, arranged, function) for check in question.public]
     if any(line.blank for line in lines):
         return Notice(question.title, "not attempted yet", ())
-    missed = sum(line.holds is False for line in lines)
-    status = "handed in" if not missed else f"handed in, but {missed} of {len(lines)} checks fail"
-    return Notice(question.title, status, tuple(lines))
+    if found.state == "right":
+        return Notice(question.title, "right", (Line(True, f'how it goes: solution("{question.id}")'),))
+    lines = [Line(None, f"the form is right: {question.form.expected}"), *lines]
+    if found.state == "undecided":
+        missed = sum(line.holds is False for line in lines)
+        status = "handed in" if not missed else f"handed in, but {missed} of {len(lines)} checks fail"
+        return Notice(question.title, status, (*lines, Line(None, found.text)))
+    said = found.text if found.state == "mistake" else f"{found.text[0].upper()}{found.text[1:]}."
+    return Notice(question.title, "not right yet", (*lines, Line(False, said)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import re
 from dataclasses import dataclass
 
 _MARKS = {True: "\N{CHECK MARK}", False: "\N{BALLOT X}", None: "\N{BULLET}"}
@@ -39,10 +40,16 @@ class Notice:
         status = f": {html.escape(self.status)}" if self.status else ""
         rows = "".join(
             f'<div style="margin-left:1em"><span style="color:{_COLOURS[line.holds]};font-weight:bold">'
-            f"{_MARKS[line.holds]}</span> {html.escape(line.text)}</div>"
+            f"{_MARKS[line.holds]}</span> {_inline(line.text)}</div>"
             for line in self.lines
         )
         return f'<div style="border-left:3px solid #0072B2;padding:0.2em 0.8em"><b>{html.escape(self.title)}</b>{status}{rows}</div>'
+
+
+def _inline(text: str) -> str:
+    """Bold words and code of Markdown as HTML; formulas are left to Jupyter."""
+    said = re.sub(r"`([^`]+)`", r"<code>\1</code>", html.escape(text))
+    return re.sub(r"\*\*([^*]+)\*\*", r"<b>\1</b>", said)
 
 
 def show(notice: Notice, data: dict | None = None) -> None:

@@ -13,7 +13,7 @@ import tomllib
 from collections.abc import Mapping
 from functools import cache
 from importlib import resources
-from typing import Annotated
+from typing import Annotated, Literal
 
 import msgspec
 from msgspec import Meta
@@ -37,11 +37,15 @@ class Heading(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
         Hints, from the lightest to the strongest.
     minutes : int
         Expected time, in minutes, for a student who has followed the lecture.
+    home : str
+        "sealed": the student's own copy says whether an answer is right; "form": only whether its form is. What could
+        be found by trying is never sealed.
     """
 
     title: Text
     hints: tuple[Text, ...] = ()
     minutes: Annotated[int, Meta(ge=0)] = 0
+    home: Literal["sealed", "form"] = "sealed"
 
 
 class PublicQuestion(Heading, frozen=True, kw_only=True):

@@ -12,8 +12,8 @@ import numpy as np
 
 
 def _real(x: Any) -> Any:
-    """The real part where it is the whole value, nan elsewhere."""
-    return np.where(np.imag(x) == 0, np.real(x), np.nan)
+    """The real part where it is the whole value, but for rounding; nan elsewhere."""
+    return np.where(np.abs(np.imag(x)) <= 1e-12 * np.abs(x), np.real(x), np.nan)
 
 
 OPERATIONS: dict[str, Callable] = {

@@ -1,5 +1,7 @@
 """Every student's own numbers: lengths, targets, postures, derived in the open from the student's id.
 
+An id leads to one of a pool of sets of numbers, so that verdicts can be sealed for each of them.
+
 The ranges stand in the table ``[variant]`` of ``dhkit/questions/<exercise>.toml``. The grader takes the id from its
 gradebook and derives the same numbers, on any machine: a text is hashed (SHA-256), nothing is drawn.
 """
@@ -8,23 +10,44 @@ from __future__ import annotations
 
 import hashlib
 import unicodedata
+from functools import cache
+from itertools import count
 
 from .public import variant_ranges
 
 NOBODY = "nobody"
+SETS = 64
+"""Sets of numbers of an exercise."""
 
 _typed: dict[str, str] = {}
 
 
-def numbers(exercise: str, student: str) -> dict[str, float | str]:
-    """The numbers of `student` for `exercise`, by name; empty if the exercise is the same for everybody.
+def number_set(exercise: str, student: str) -> int:
+    """Which of the `SETS` sets of numbers is the student's: the SHA-256 of "<exercise> <id>" modulo `SETS`.
+
+    The id counts in its normal form.
+    """
+    return _hash(f"{exercise} {normal_form(student)}") % SETS
+
+
+def numbers_of_set(exercise: str, which: int) -> dict[str, float | str]:
+    """The numbers of one set of `exercise`, by name; empty if the exercise is the same for everybody.
 
     A range ``[lowest, highest, step]`` gives ``lowest + k * step``, a list of texts gives one of them; k, counted from
-    0, is the SHA-256 of "<exercise> <name> <student>" modulo the number of values, the student by the `normal_form` of
-    the id.
+    0, is the SHA-256 of "<exercise> <name> <which>" modulo the number of values.
     """
-    whose = normal_form(student)
-    return {name: _pick(range_, f"{exercise} {name} {whose}") for name, range_ in variant_ranges(exercise).items()}
+    return {name: _pick(range_, f"{exercise} {name} {which}") for name, range_ in variant_ranges(exercise).items()}
+
+
+def numbers(exercise: str, student: str) -> dict[str, float | str]:
+    """The numbers of `student` for `exercise`, by name."""
+    return numbers_of_set(exercise, number_set(exercise, student))
+
+
+@cache
+def member(exercise: str, which: int) -> str:
+    """An id, nobody's, that leads to the set `which`."""
+    return next(id for number in count() if number_set(exercise, id := f"set {which}, {number}") == which)
 
 
 def normal_form(student: str) -> str:
@@ -38,11 +61,15 @@ def normal_form(student: str) -> str:
 
 
 def _pick(range_: tuple, text: str) -> float | str:
-    chance = int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "big")
+    chance = _hash(text)
     if isinstance(range_[0], str):
         return range_[chance % len(range_)]
     lowest, highest, step = range_
     return round(lowest + chance % (round((highest - lowest) / step) + 1) * step, 9)
+
+
+def _hash(text: str) -> int:
+    return int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "big")
 
 
 class OwnNumbers(dict):

@@ -140,7 +140,7 @@ def empty_course(tmp_path_factory, registry):
     shutil.copy(REPOSITORY / "nbgrader_config.py", root)
     (root / "solutions/scara").mkdir(parents=True)
     nbformat.write(solution(), root / "solutions/scara/scara.ipynb")
-    release(open_course(root), "scara")
+    release(open_course(root), "scara", "form")
     return root
 
 

@@ -88,10 +88,10 @@ def test_limits_that_make_no_sense_are_refused(empty_course, words, capsys):
 def test_release_is_deterministic_and_gives_nothing_away(course_copy, small, capsys):
     notebook = course_copy / "exercises/scara/scara.ipynb"
     first = notebook.read_bytes()
-    assert run(course_copy, "release") == 0 and notebook.read_bytes() == first
+    assert run(course_copy, "release", "--home", "form") == 0 and notebook.read_bytes() == first
     shutil.rmtree(course_copy / "exercises")
     (course_copy / "gradebook.db").unlink()
-    assert run(course_copy, "release", "scara") == 0 and notebook.read_bytes() == first
+    assert run(course_copy, "release", "scara", "--home", "form") == 0 and notebook.read_bytes() == first
     text = first.decode()
     assert "SOLUTION" not in text and "# your code here" in text
     for answer in small.ANSWERS.values():
@@ -104,7 +104,7 @@ def test_release_is_deterministic_and_gives_nothing_away(course_copy, small, cap
 def test_a_failing_release_says_why(course_copy, capsys):
     path = course_copy / "solutions/scara/scara.ipynb"
     path.write_text(path.read_text().replace("### END SOLUTION", ""))
-    assert run(course_copy, "release", "scara") == 2
+    assert run(course_copy, "release", "scara", "--home", "form") == 2
     assert "no end solution statement found" in capsys.readouterr().err
 
 

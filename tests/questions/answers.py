@@ -23,11 +23,11 @@ def mistaken(question, *ways):
     return answer.solutions if isinstance(answer, Family) else answer
 
 
-def evidence(question, answer):
+def evidence(question, answer, student=STUDENT):
     """What the sandbox would find if a student handed in `answer`."""
     if question.form.kind != "function":
         return Evidence(wire.packet(question.id, answer=wire.encode(answer)))
-    probes, results = question.probes(STUDENT, 7), []
+    probes, results = question.probes(student, 7), []
     for args in probes:
         try:
             found = answer(*args)

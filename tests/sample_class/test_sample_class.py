@@ -53,7 +53,7 @@ def course(tmp_path_factory):
     """The sample class, released and not yet graded."""
     root = tmp_path_factory.mktemp("sample_class") / "course"
     write_class(root, harmless=not SANDBOX, sparse=True)
-    run(root, "-m", "autograder.cli", "release")
+    run(root, "-m", "autograder.cli", "release", "--home", "form")
     return root
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -37,9 +38,12 @@ class AssignmentRelease(GenerateAssignment):
     ----------
     changes : Changes
         What the release changed for those who had handed in already.
+    beside : mapping of str to bytes
+        Files that are put beside the notebooks.
     """
 
     changes = Changes()
+    beside: Mapping[str, bytes] = {}
 
     def start(self) -> None:
         stock = (SaveCells, "nbgrader.preprocessors.SaveCells")
@@ -64,7 +68,7 @@ class AssignmentRelease(GenerateAssignment):
 
     def _release(self, exercise: str, source: Path, target: Path) -> None:
         released: dict[str, ReleasedCells] = {}
-        files: dict[str, bytes] = {}
+        files = dict(self.beside)
         for path in sorted(path for paths in self.assignments.values() for path in paths):
             resources: dict[str, Any] = {**self.init_single_notebook_resources(path), "cells": ReleasedCells()}
             text, resources = self.exporter.from_filename(path, resources=resources)

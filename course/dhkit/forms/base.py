@@ -5,14 +5,42 @@ from __future__ import annotations
 from typing import Annotated
 
 import msgspec
+import numpy as np
 from msgspec import Meta
 
 from .. import nodes
+from ..geometry import phasor
 from ..schema import unique
+from ..values import values
 
 Text = Annotated[str, Meta(min_length=1)]
 Size = Annotated[int, Meta(ge=1, le=1000)]
 Names = tuple[Text, ...]
+
+
+class Sight(msgspec.Struct, frozen=True, kw_only=True):
+    """How an answer is looked at when its numbers count: what a question says of comparing, without its answer.
+
+    Attributes
+    ----------
+    points : tuple of mapping
+        Values of the symbols, one mapping for each point at which an answer is evaluated.
+    angles : tuple of int
+        Entries, or joints, that are angles: equal modulo a full turn.
+    tolerance : float
+        Largest difference between equal answers, relative to the larger of 1 and the value.
+    pins : tuple of str
+        What a question fixes of the frames of a DHm table between base and tool: "z", "x", "origin".
+    """
+
+    points: tuple[dict[str, float], ...] = ({},)
+    angles: tuple[int, ...] = ()
+    tolerance: float = 1e-6
+    pins: tuple[str, ...] = ()
+
+
+Parts = dict[str, np.ndarray]
+"""Numbers (m,) by which answers are told apart, of the whole answer ("") and of parts that can be right alone."""
 
 
 class Form:
@@ -52,6 +80,28 @@ class Form:
         """What was found, in words, where the arranged `node` is not in this form; None where it is."""
         raise NotImplementedError
 
+    def invariants(self, node: object, sight: Sight) -> Parts:
+        """Numbers that do not depend on what the kind leaves free, such as order, turns or the sense of an axis.
+
+        Those of equal answers differ by at most ``sight.tolerance``. Nothing is returned for an answer that is not
+        defined at some point, and by kinds whose answers cannot be told apart by numbers.
+
+        Parameters
+        ----------
+        node : object
+            An answer without complaint, arranged.
+        sight : Sight
+        """
+        return {}
+
+    def witness(self, node: object, sight: Sight) -> np.ndarray:
+        """All that is needed to compare two answers exactly, (m,)."""
+        return self.invariants(node, sight).get("", np.zeros(0))
+
+    def agree(self, first: np.ndarray, second: np.ndarray, sight: Sight) -> bool:
+        """Whether two answers are equal, by what `witness` says of them."""
+        return first.shape == second.shape and bool((np.abs(first - second) <= sight.tolerance).all())
+
     def complaint(self, node: object) -> str | None:
         """One sentence on what is wrong with the form of an answer, None if nothing is.
 
@@ -87,3 +137,22 @@ class Symbolic(Fields, frozen=True, kw_only=True):
         if nodes.array_shape(node) != self.shape:
             return nodes.describe(node)
         return nodes.alien(node, self.symbols)
+
+    def invariants(self, node: object, sight: Sight) -> Parts:
+        found = seen(node, sight)
+        return {} if found is None else {"": squeezed(found, sight.angles)}
+
+
+def seen(node: object, sight: Sight) -> np.ndarray | None:
+    """Real values of m entries at N points, (N, m); None if one is not defined."""
+    found = np.array([values(node, point).ravel() for point in sight.points])
+    real = np.abs(found.imag) <= sight.tolerance * np.maximum(1, np.abs(found.real))
+    return found.real if np.isfinite(found).all() and real.all() else None
+
+
+def squeezed(found: np.ndarray, angles: tuple[int, ...] = ()) -> np.ndarray:
+    """Values (N, m) as numbers whose absolute error is the relative one of large values; angles as cosine and sine."""
+    turns = [i for i in range(found.shape[1]) if i in angles]
+    lengths = [i for i in range(found.shape[1]) if i not in angles]
+    circle = phasor(found[:, turns])
+    return np.concatenate([np.arcsinh(found[:, lengths]), circle.real, circle.imag], axis=1).ravel()

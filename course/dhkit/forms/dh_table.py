@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from .. import nodes
+from ..geometry import modified_dh
 from ..schema import unique
-from .base import Names, Size, Symbolic
+from .base import Names, Parts, Sight, Size, Symbolic, seen, squeezed
 
 DH_COLUMNS = ("sigma", "a", "alpha", "d", "theta")
 
@@ -36,3 +39,17 @@ class DHTable(Symbolic, frozen=True, kw_only=True):
 
     def arranged(self, node: object) -> object:
         return nodes.rows_in_order(node, DH_COLUMNS)
+
+    def invariants(self, node: object, sight: Sight) -> Parts:
+        """The hand at every point, sigma of the joints, and what is pinned of the frames between."""
+        found = seen(node, sight)
+        if found is None:
+            return {}
+        sigma, a, alpha, d, theta = np.moveaxis(found.reshape(-1, *self.shape), -1, 0)
+        frames = [np.broadcast_to(np.eye(4), (len(found), 4, 4))]
+        for step in np.moveaxis(modified_dh(a, alpha, d, theta), 1, 0):
+            frames.append(frames[-1] @ step)
+        columns = [{"x": 0, "z": 2, "origin": 3}[pin] for pin in sight.pins]
+        pinned = np.array(frames[1:-1]).reshape(-1, 4, 4)[:, :3, columns]
+        looks = (frames[-1][:, :3].ravel(), sigma[:, : len(self.joints)].ravel(), pinned.ravel())
+        return {"": squeezed(np.concatenate(looks)[None])}

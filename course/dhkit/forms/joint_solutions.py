@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from .. import nodes
+from ..geometry import wrap
 from ..schema import unique
-from ..values import values
-from .base import Fields, Names
+from ..values import reals, values
+from .base import Fields, Names, Parts, Sight, squeezed
 
 MAX_SOLUTIONS = 100
 """Sets of solutions are compared pair by pair; a general six-axis arm has at most 16."""
@@ -44,6 +45,58 @@ class JointSolutions(Fields, frozen=True, kw_only=True):
         if len(node) > MAX_SOLUTIONS:
             return f"{len(node)} solutions, more than any robot has"
         return nodes.alien(node, ()) or unreal(node)
+
+    def invariants(self, node: object, sight: Sight) -> Parts:
+        found = distinct(self._rows(node), sight)
+        alone = {f"solution {i + 1}": squeezed(row[None], sight.angles) for i, row in enumerate(found)}
+        return {"": np.array([len(found), *_sums(found, sight)]), **alone}
+
+    def witness(self, node: object, sight: Sight) -> np.ndarray:
+        return self._rows(node).ravel()
+
+    def agree(self, first: np.ndarray, second: np.ndarray, sight: Sight) -> bool:
+        same = close(first.reshape(-1, len(self.joints)), second.reshape(-1, len(self.joints)), sight)
+        return bool(same.any(axis=1).all() and same.any(axis=0).all())
+
+    def _rows(self, node: object) -> np.ndarray:
+        return reals(node, {}).reshape(-1, len(self.joints))
+
+
+def close(a: np.ndarray, b: np.ndarray, sight: Sight, turn: float = 2 * np.pi) -> np.ndarray:
+    """Which of the (m, n) solutions `a` are the same as which of the (k, n) solutions `b`, (m, k) booleans."""
+    gap = np.abs(a[:, None] - b[None])
+    angles = list(sight.angles)
+    gap[..., angles] = np.abs(wrap(gap[..., angles] * (2 * np.pi / turn)))
+    return (gap <= sight.tolerance).all(axis=-1)
+
+
+def distinct(solutions: np.ndarray, sight: Sight, turn: float = 2 * np.pi) -> np.ndarray:
+    """Rows (k, n) of solutions without those that are the same as one before."""
+    kept: list[int] = []
+    for i, same in enumerate(close(solutions, solutions, sight, turn)):
+        if not same[kept].any():
+            kept.append(i)
+    return solutions[kept]
+
+
+FREQUENCIES = (
+    (1, 1, 1, 1, 1, 1), (1, -1, 2, 1, -1, 1), (2, 1, -1, 1, 1, -1), (1, 2, 1, -1, 2, 1),
+    (-1, 1, 1, 2, 1, 1), (1, 1, -2, 1, -1, 2), (2, -1, 1, 1, 2, -1), (1, -2, -1, -1, 1, 1),
+)  # fmt: skip
+"""Whole numbers of turns, joint after joint and from the first again: no wave tells 2 pi more or less."""
+
+
+def _sums(solutions: np.ndarray, sight: Sight) -> list[float]:
+    """Means over the solutions of waves in their joints: without order, and modulo a turn where joints are angles."""
+    waves = []
+    for number, pattern in enumerate(FREQUENCIES):
+        turns = np.resize(np.array(pattern, float), solutions.shape[1])
+        lengths = [joint for joint in range(len(turns)) if joint not in sight.angles]
+        turns[lengths] *= 1.37  # no period that a length could have by chance
+        # A cosine of a cosine: plain waves cancel between solutions that are half a turn apart.
+        wave = np.cos(2 * np.cos(solutions @ turns + number) + number)
+        waves.append(float(wave.mean() / (2 * np.abs(turns).sum())) if len(solutions) else 0.0)
+    return waves
 
 
 def unreal(node: list) -> str | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .. import nodes
-from .base import Fields
+from .base import Fields, Parts, Sight, seen, squeezed
 
 
 class Number(Fields, frozen=True, kw_only=True):
@@ -11,3 +11,7 @@ class Number(Fields, frozen=True, kw_only=True):
 
     def misfit(self, node: object) -> str | None:
         return nodes.describe(node) if isinstance(node, list) else nodes.alien(node, ())
+
+    def invariants(self, node: object, sight: Sight) -> Parts:
+        found = seen(node, sight)
+        return {} if found is None else {"": squeezed(found)}

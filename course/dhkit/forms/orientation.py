@@ -7,6 +7,8 @@ from typing import Annotated, Literal
 
 from msgspec import Meta
 
+from ..geometry import rotation
+from .base import Parts, Sight, seen
 from .vector import Vector
 
 
@@ -30,3 +32,11 @@ class Orientation(Vector, frozen=True, kw_only=True):
         turns = re.fullmatch("[xyz]{3}", self.axes)
         if not turns or self.axes[1] in (self.axes[0], self.axes[2]):
             raise ValueError(f"axes: {self.axes!r} is not three of x, y, z, each another one than the one before")
+
+    def invariants(self, node: object, sight: Sight) -> Parts:
+        found = seen(node, sight)
+        if found is None:
+            return {}
+        first, second, third = (rotation(axis, angles) for axis, angles in zip(self.axes, found.T, strict=True))
+        turned = third @ second @ first if self.frames == "fixed" else first @ second @ third
+        return {"": turned.ravel()}

@@ -129,7 +129,7 @@ def test_release_leaves_the_exercise_when_the_gradebook_cannot_be_used(course, c
     before = (course / "exercises/scara/scara.ipynb").read_bytes()
     act, words = DAMAGES[damage]
     act(course / "gradebook.db")
-    assert cli.main(["release", "scara", "--course", str(course)]) in (1, 2)
+    assert cli.main(["release", "--home", "form", "scara", "--course", str(course)]) in (1, 2)
     assert words in capsys.readouterr().err
     assert (course / "exercises/scara/scara.ipynb").read_bytes() == before
 
@@ -144,7 +144,7 @@ def test_an_older_gradebook_put_back_is_brought_up_to_date(graded, half_graded, 
 
 def test_a_gradebook_lost_and_released_again_is_filled_again(graded, faults, right):
     (graded / "gradebook.db").rename(graded / "gradebook.old")
-    assert cli.main(["release", "--course", str(graded)]) == 0
+    assert cli.main(["release", "--home", "form", "--course", str(graded)]) == 0
     assert faults.grade(graded) == 0 and unchanged(faults, graded, right)
 
 
@@ -274,7 +274,7 @@ def test_two_exercises_of_the_same_new_students_at_once(course, faults, small, r
     text = (course / "solutions/scara/scara.ipynb").read_text()
     (course / "solutions/second").mkdir()
     (course / "solutions/second/second.ipynb").write_text(text)
-    assert cli.main(["release", "second", "--course", str(course)]) == 0
+    assert cli.main(["release", "--home", "form", "second", "--course", str(course)]) == 0
     for student in ("x", "y", "z"):
         faults.hand_in(small, course, released, student, "right")
         (course / "submitted" / student / "second").mkdir()
