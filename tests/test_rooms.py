@@ -1,4 +1,4 @@
-"""Imports point one way: cli -> grading -> questions -> judge -> reference -> dhkit.geometry; grading -> sandbox."""
+"""Imports point one way: cli -> grading -> sealing -> questions -> judge -> reference -> dhkit.geometry; grading -> sandbox."""
 
 import ast
 import sys
@@ -14,7 +14,8 @@ MAY_IMPORT = {
     "autograder/sandbox": set(),
     "autograder/judge": {"autograder.reference", "dhkit", GEOMETRY},
     "autograder/questions": {"autograder.judge", "autograder.reference", "dhkit", GEOMETRY},
-    "autograder/grading": {"autograder.questions", "autograder.judge", "autograder.sandbox", "dhkit"},
+    "autograder/sealing": {"autograder.questions", "autograder.judge", "dhkit"},
+    "autograder/grading": {"autograder.sealing", "autograder.questions", "autograder.judge", "autograder.sandbox", "dhkit"},
     "course/dhkit": {GEOMETRY},
 }
 
@@ -77,6 +78,7 @@ def test_students_kit_needs_few_libraries():
         "matplotlib",
         "mpl_toolkits",
         "IPython",
+        "cryptography",
         "msgspec",
         "ipywidgets",
         "dhkit",

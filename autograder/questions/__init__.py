@@ -21,7 +21,9 @@ def names() -> list[str]:
 
 @cache
 def of_exercise(name: str) -> tuple[Question, ...]:
-    """The questions of one exercise, in the order of its package; none where a package asks nothing."""
+    """The questions of one exercise, in the order of its package; none where there is no package, or it asks nothing."""
+    if name not in _modules():
+        return ()
     return getattr(importlib.import_module(f"{__name__}.{name}"), "QUESTIONS", ())
 
 
