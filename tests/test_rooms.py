@@ -15,7 +15,13 @@ MAY_IMPORT = {
     "autograder/judge": {"autograder.reference", "dhkit", GEOMETRY},
     "autograder/questions": {"autograder.judge", "autograder.reference", "dhkit", GEOMETRY},
     "autograder/sealing": {"autograder.questions", "autograder.judge", "dhkit"},
-    "autograder/grading": {"autograder.sealing", "autograder.questions", "autograder.judge", "autograder.sandbox", "dhkit"},
+    "autograder/grading": {
+        "autograder.sealing",
+        "autograder.questions",
+        "autograder.judge",
+        "autograder.sandbox",
+        "dhkit",
+    },
     "course/dhkit": {GEOMETRY},
 }
 
