@@ -14,6 +14,7 @@ host           prepares a process that runs nbgrader
 course         a course folder with nbgrader opened on it
 pipeline       grades a class: kernels side by side, gradebook by one thread
 results        what was found, one line per submission
+explain        how one verdict came about; changes: whose points moved when graded again
 returning      grades and pages as platforms take them back
 report/        the class report
 release, bundle, doctor    the other commands; table shows results and report in a terminal
