@@ -41,4 +41,7 @@ c.HTMLExporter.filters = {
     for name in ("markdown2html", "highlight_code", "ansi2html", "clean_html", "strip_files_prefix")
 }
 
+# Due dates and penalties: term.toml
+c.AssignLatePenalties.plugin_class = "autograder.grading.plugins.late.TermPenalty"
+
 c.ExportApp.plugin_class = "autograder.grading.plugins.export.GradesAndNotes"

@@ -161,6 +161,19 @@ def _parser() -> argparse.ArgumentParser:
         help="Moodle's list of participants or grading worksheet, Canvas's grade table (none: show students.csv as it is)",
     )
 
+    allow = command(
+        "allow",
+        _allow,
+        "Give a student more time for an exercise, or exempt the student.",
+        "autograder allow 'Ada Lovelace' scara --until +3d",
+    )
+    allow.add_argument("student", help="id, or name on the roster")
+    allow.add_argument("exercise")
+    what = allow.add_mutually_exclusive_group(required=True)
+    what.add_argument("--until", metavar="TIME", help="+3d, +12h or '2026-10-20 23:59'")
+    what.add_argument("--exempt", action="store_true", help="the exercise does not count for the student")
+    what.add_argument("--nothing", action="store_true", help="take back what was allowed")
+
     collect = command(
         "collect",
         _collect,
@@ -301,6 +314,16 @@ def _roster(options) -> int:
 
     files = [Path(name).absolute() for name in options.file]
     roster_table(enrol(_course(options), files))
+    return 0
+
+
+def _allow(options) -> int:
+    from autograder.grading.enrolment import allow
+
+    person = allow(_course(options), options.student, options.exercise, options.until, options.exempt)
+    given = [*person.extensions, *(f"exempt from {name}" for name in person.exempt)]
+    print(f"{person.id}: {'; '.join(given) or 'nothing out of the ordinary'}")
+    print(f"run: autograder grade {options.exercise}")
     return 0
 
 

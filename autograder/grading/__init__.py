@@ -2,6 +2,7 @@
 
 errors, cells  what went wrong, in words; ids and records of cells
 roster         students.csv: who is in the course; enrolment: how it is made; worksheets: tables of platforms
+term           term.toml: due dates and what being late costs
 collecting/    from a platform's download to the folders of students
 entries        what a verdict is in nbgrader's gradebook: a score and a comment
 inert          makes what a student wrote harmless to look at

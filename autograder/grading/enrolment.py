@@ -1,10 +1,11 @@
-"""``autograder roster``: from the lists that platforms export to ``students.csv``, and to the names in the gradebook."""
+"""``autograder roster`` and ``autograder allow``: from the lists that platforms export to ``students.csv``, and to the names in the gradebook."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from datetime import datetime
 from pathlib import Path
 
 from nbgrader.api import Student
@@ -17,6 +18,7 @@ from .files import write_whole
 from .folders import student_names
 from .gradebook import is_made, writing
 from .roster import Person, Roster, read_roster, roster_text
+from .term import more_time, read_term
 from .worksheets import read_canvas, read_moodle
 
 # What a platform's list settles; extensions and exemptions are the lecturer's.
@@ -49,6 +51,38 @@ def enrol(course: Course, files: Sequence[Path]) -> list[Enrolled]:
     if is_made(course.db_url):
         _enter_names(course, (line.person for line in lines))
     return lines
+
+
+def allow(course: Course, student: str, exercise: str, until: str | None, exempt: bool) -> Person:
+    """Give a student more time for an exercise, or exempt the student; with neither, take back what was given.
+
+    Parameters
+    ----------
+    until : str or None
+        ``+3d``, ``+12h`` or a time.
+    """
+    course.require(exercise)
+    roster = read_roster(course.root)
+    named = [one] if (one := roster.get(student)) else roster.named(student)
+    if len(named) != 1:
+        known = (
+            ", ".join(person.id for person in named or roster.people)
+            or f"nobody; make {roster.path} with autograder roster"
+        )
+        raise CourseError(f"{'several are' if named else 'nobody is'} called {student!r}; there are: {known}")
+    (before,) = named
+    others = tuple(text for text in before.extensions if text.partition("=")[0].strip() != exercise)
+    spared = tuple(name for name in before.exempt if name != exercise)
+    after = replace(
+        before,
+        extensions=(*others, f"{exercise}={until}") if until else others,
+        exempt=(*spared, exercise) if exempt else spared,
+    )
+    if until:
+        more_time(after, exercise, datetime.max, read_term(course.root))
+    people = [after if person == before else person for person in roster.people]
+    write_whole(roster.path, roster_text(people).encode())
+    return after
 
 
 def _read(file: Path) -> list[Person]:

@@ -16,14 +16,16 @@ from contextlib import closing, contextmanager
 from dataclasses import replace
 
 import nbformat
+from nbgrader.preprocessors import AssignLatePenalties
 
 from autograder.sandbox import cancel_runs
 
 from .changes import by_hand, moved, points_given
+from .collecting.receipts import read_receipts, receipts_folder
 from .course import Course, convert
 from .errors import CourseError, in_words
 from .folders import released_path
-from .gradebook import GradebookError, reading
+from .gradebook import GradebookError, reading, writing
 from .inert import terminal_text
 from .plugins.autograde import (
     SubmissionAutograde,
@@ -35,10 +37,12 @@ from .plugins.autograde import (
 from .plugins.feedback import FeedbackPages
 from .plugins.preprocessors import SandboxExecute
 from .results import Result, graded_notebooks, read_result
-from .store import StoredNotebook, stored_notebooks
+from .roster import read_roster
+from .store import StoredNotebook, refresh_dates, stored_notebooks
 from .submission.execution import Execution
 from .submission.reading import fingerprint
 from .submission.restore import restore
+from .term import deadlines
 
 Progress = Callable[[str], None]
 
@@ -67,6 +71,7 @@ def grade(
     refuse_unless_ready(converter)
     names = notebook_names(converter)
     runner = SandboxExecute(parent=converter)
+    _bring_up_dates(course, exercise, converter)
     stored = _stored(course, exercise)
     status: dict[str, str] = {}
     failures: dict[str, str] = {}
@@ -103,7 +108,8 @@ def grade(
         Result(terminal_text(name), exercise, "failed", remarks=(reason,))
         for name, reason in course.unusable_folders(exercise).items()
     ]
-    return unusable + [
+    said = _said_elsewhere(course, exercise)
+    results = [
         Result(student, exercise, "failed", remarks=(failures[student],))
         if student in failures
         else _compared(
@@ -114,6 +120,18 @@ def grade(
         )
         for student in students
     ]
+    return unusable + [replace(result, remarks=(*said.get(result.student, ()), *result.remarks)) for result in results]
+
+
+def _said_elsewhere(course: Course, exercise: str) -> dict[str, tuple[str, ...]]:
+    """What the roster and the platform say of students, beside the notebooks."""
+    found: dict[str, tuple[str, ...]] = {
+        person.id: ("exempt",) for person in read_roster(course.root).people if exercise in person.exempt
+    }
+    for student, receipt in read_receipts(receipts_folder(course.root, exercise)).items():
+        if receipt.late and receipt.handed_in is None:
+            found[student] = (*found.get(student, ()), "marked late by the platform, which tells no time")
+    return found
 
 
 def _compared(
@@ -126,6 +144,17 @@ def _compared(
     if result.status != "graded":
         return result
     return replace(result, moved=moved(before, after, points), by_hand=by_hand(before, after, points))
+
+
+def _bring_up_dates(course: Course, exercise: str, converter: SubmissionAutograde) -> None:
+    """Due dates, more time and penalties as the course says now, also for what is not graded again."""
+    dates = deadlines(course.root, exercise)
+    for name in dates.term.due:
+        course.require(name)
+    if dates.due is None:
+        return
+    with writing(course.db_url) as session:
+        refresh_dates(session, dates, AssignLatePenalties(parent=converter))
 
 
 @contextmanager

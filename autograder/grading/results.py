@@ -125,7 +125,10 @@ def read_result(
         score=max(0.0, sum(one.score - one.penalty for one in stored.values())),
         max_score=sum(one.max_score for one in stored.values()),
         answers=tuple(answers),
-        remarks=tuple(remark for nb in notebooks for remark in notebook_record(nb).remarks()),
+        remarks=(
+            *filter(None, (one.lateness for one in stored.values())),
+            *(remark for nb in notebooks for remark in notebook_record(nb).remarks()),
+        ),
         feedback=str(pages[0]) if pages else None,
     )
 

@@ -78,10 +78,14 @@ class _Class:
     def remark(self, student: str, said: str) -> None:
         self.remarks.setdefault(student, []).append(said)
 
+    def is_exempt(self, student: str) -> bool:
+        person = self.roster.get(student)
+        return person is not None and self.exercise in person.exempt
+
     def points(self, student: str, maximum: float | None, scale: bool) -> float | None:
         """Points as the platform counts them: of its own maximum, and not above it."""
         grade = self.grades.get(student)
-        if grade is None:
+        if grade is None or self.is_exempt(student):
             return None
         points = grade.score
         if maximum is not None and grade.max_score and abs(maximum - grade.max_score) > _HUNDREDTH:
@@ -157,10 +161,8 @@ def return_canvas(
             continue
         student = _owner_on_canvas(header, row, known, numbers)
         points[student] = known.points(student, maximum, scale)
-        said = known.roster.get(student)
-        if said is not None and exercise in said.exempt:
+        if known.is_exempt(student):
             kept.append([*row[:about], "EX"])
-            known.remark(student, "excused")
         elif (found := points[student]) is not None:
             kept.append([*row[:about], f"{found:g}"])
     table = [[*header[:about], header[column]], *([[*possible[:about], possible[column]]] if possible else []), *kept]
@@ -307,7 +309,9 @@ def _write(
     for student in sorted(everybody, key=lambda name: (name.casefold(), name)):
         remarks = known.remarks.get(student, [])
         receipt = known.receipts.get(student)
-        if student in known.grades and points.get(student) is None:
+        if known.is_exempt(student):
+            remarks.append("exempt")
+        elif student in known.grades and points.get(student) is None:
             remarks.append("graded, but not found on the platform")
         if student in known.pages and student not in reached:
             remarks.append("no feedback file: the platform's number is not known; collect its download")

@@ -12,7 +12,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from datetime import datetime
+from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
@@ -38,6 +38,7 @@ from .cells import answer_id, check_cells, check_record, notebook_record, tracke
 from .entries import comment
 from .errors import CourseError
 from .files import digest, digest_of
+from .term import Deadlines
 
 
 class _Base(DeclarativeBase):
@@ -106,6 +107,8 @@ class StoredNotebook:
 
     id: str
     penalty: float
+    late: float = 0.0
+    """Seconds after the due date."""
     grades: dict[str, StoredGrade] = field(default_factory=dict)
     comments: dict[str, StoredComment] = field(default_factory=dict)
     mark: Mark | None = None
@@ -114,6 +117,18 @@ class StoredNotebook:
     def score(self) -> float:
         """Points of the notebook, nothing taken off for being late."""
         return sum(grade.score for grade in self.grades.values())
+
+    @property
+    def lateness(self) -> str:
+        """How late it was and what that cost, in words; empty if it was in time."""
+        if not self.late:
+            return ""
+        days, hours = int(self.late // 86400), int(self.late % 86400 // 3600)
+        parts = [
+            f"{count} {unit}{'s' if count > 1 else ''}" for count, unit in ((days, "day"), (hours, "hour")) if count
+        ]
+        cost = f"{round(self.penalty, 2):g} points off" if self.penalty else "no points off"
+        return f"late by {' '.join(parts) or 'less than an hour'}: {cost}"
 
     @property
     def bonus(self) -> float:
@@ -134,7 +149,8 @@ class StoredNotebook:
         """Checksum of all that a feedback page shows of the gradebook, and of the graded notebook."""
         grades = {name: [grade.score, grade.max_score] for name, grade in self.grades.items()}
         comments = {name: found.text for name, found in self.comments.items()}
-        return _checksum([grades, comments, self.penalty, self.mark.graded if self.mark else None])
+        late = [round(self.late)] if self.late else []
+        return _checksum([grades, comments, self.penalty, self.mark.graded if self.mark else None, *late])
 
     def is_graded(self, submission: str, graded: Path) -> bool:
         """True if the submission with this fingerprint is stored as a whole, its graded notebook included."""
@@ -163,6 +179,9 @@ def stored_notebooks(
             SubmittedAssignment.student_id,
             Notebook.name,
             SubmittedNotebook.late_submission_penalty,
+            SubmittedAssignment.timestamp,
+            SubmittedAssignment.extension,
+            Assignment.duedate,
         )
         .join(SubmittedAssignment, SubmittedNotebook.assignment_id == SubmittedAssignment.id)
         .join(Assignment, SubmittedAssignment.assignment_id == Assignment.id)
@@ -172,7 +191,8 @@ def stored_notebooks(
     if student is not None:
         submitted = submitted.where(SubmittedAssignment.student_id == student)
     found = {
-        row.id: (row.student_id, row.name, StoredNotebook(row.id, row[3] or 0.0)) for row in session.execute(submitted)
+        row.id: (row.student_id, row.name, StoredNotebook(row.id, row[3] or 0.0, _seconds_late(*row[4:])))
+        for row in session.execute(submitted)
     }
     ids = submitted.with_only_columns(SubmittedNotebook.id)
     graded, task = GradeCell.__table__, TaskCell.__table__
@@ -203,12 +223,19 @@ def stored_notebooks(
     return {(name, notebook): stored for name, notebook, stored in found.values()}
 
 
+def _seconds_late(handed_in: datetime | None, extension: timedelta | None, due: datetime | None) -> float:
+    if handed_in is None or due is None:
+        return 0.0
+    return max(0.0, (handed_in - due - (extension or timedelta(0))).total_seconds())
+
+
 def store(
     session: Session,
     exercise: str,
     student: str,
     graded: Mapping[str, tuple[NotebookNode, bytes]],
     timestamp: datetime | None,
+    dates: Deadlines,
     penalties: AssignLatePenalties,
 ) -> None:
     """Enter the graded notebooks of a submission in the gradebook, as nbgrader's own SaveAutoGrades would, and mark them.
@@ -221,6 +248,8 @@ def store(
         By name, each graded notebook and the content of its file.
     timestamp : datetime or None
         When it was handed in, if that is known.
+    dates : Deadlines
+        When it was due.
     penalties : AssignLatePenalties
         Asks the course's plug-in what being late costs.
 
@@ -232,6 +261,7 @@ def store(
     submission = _submission(session, exercise, student)
     if timestamp is not None:
         submission.timestamp = timestamp
+    dates.apply(submission)
     for notebook in submission.notebooks:
         if notebook.name not in graded:
             continue
@@ -250,6 +280,19 @@ def store(
         session.merge(
             Mark(notebook_id=stored.id, submission=fingerprint, entries=stored.entries(), graded=digest(content))
         )
+
+
+def refresh_dates(session: Session, dates: Deadlines, penalties: AssignLatePenalties) -> None:
+    """Bring due dates, extensions and penalties of everybody who was graded up to what the course says now."""
+    submissions = session.scalars(
+        select(SubmittedAssignment)
+        .join(Assignment, SubmittedAssignment.assignment_id == Assignment.id)
+        .where(Assignment.name == dates.exercise)
+    )
+    for submission in submissions:
+        dates.apply(submission)
+        for notebook in submission.notebooks:
+            notebook.late_submission_penalty = _penalty(submission, notebook, penalties)
 
 
 def mark_page(session: Session, stored: StoredNotebook, content: bytes) -> None:

@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from pathlib import Path, PurePath
 from tempfile import TemporaryDirectory
 
@@ -19,6 +19,7 @@ from ..files import digest, digest_of, write_whole
 from ..folders import released_path, why_unusable
 from ..inert import terminal_text
 from ..roster import Person, Roster, read_roster
+from ..term import read_term
 from ..worksheets import people_of_numbers
 from .archives import Packed, is_left_out, unpack
 from .platforms import Sender, attempt, sender, upload
@@ -366,7 +367,7 @@ def _place(
         write_whole(path, piece.kept.read_bytes())
     stamp = folder / "timestamp.txt"
     if piece.handed_in is not None:
-        text = f"{piece.handed_in.astimezone(UTC):%Y-%m-%d %H:%M:%S} UTC\n".encode()
+        text = f"{read_term(course.root).utc(piece.handed_in):%Y-%m-%d %H:%M:%S} UTC\n".encode()
         if not stamp.is_file() or stamp.read_bytes() != text:
             write_whole(stamp, text)
     elif status == "replaced":

@@ -40,6 +40,7 @@ from ..inert import terminal_text
 from ..store import store, stored_notebooks
 from ..submission.execution import Execution
 from ..submission.reading import Unreadable, fingerprint, plain_bytes, read_submission
+from ..term import deadlines
 from .preprocessors import SandboxExecute
 
 
@@ -162,8 +163,9 @@ class SubmissionAutograde(ChosenStudents, Autograde):
             return
         graded = {name: self._graded(student, folder / f"{name}.ipynb") for name in self.notebooks}
         files = {f"{name}.ipynb": content for name, (_, content) in graded.items()} | self._beside(folder)
+        dates = deadlines(self.coursedir.root, exercise)
         with writing(self.coursedir.db_url) as session:
-            store(session, exercise, student, graded, time_stamp(folder), AssignLatePenalties(parent=self))
+            store(session, exercise, student, graded, time_stamp(folder), dates, AssignLatePenalties(parent=self))
             with staged(target, files, int(str(self.permissions), 8)) as put_in_place:
                 put_in_place()
             if self.coursedir.notebook_id == "*":

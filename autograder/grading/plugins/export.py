@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from pathlib import Path
 
 from nbgrader.api import Assignment, Gradebook, MissingEntry, Student
 from nbgrader.plugins import ExportPlugin
@@ -11,6 +12,7 @@ from traitlets import Bool
 from ..cells import question_id
 from ..entries import read_entries
 from ..inert import spreadsheet_cell
+from ..roster import read_roster
 
 _ABOUT = ("assignment", "duedate", "timestamp", "student_id", "last_name", "first_name", "email")
 _SCORES = ("raw_score", "bonus", "late_submission_penalty", "score", "max_score")
@@ -20,7 +22,7 @@ class GradesAndNotes(ExportPlugin):
     """nbgrader's own columns, then the notes in one column and the points of each question.
 
     The questions' points and the bonus add up to the raw score. Who handed in nothing has no points, rather than none
-    of them; an exercise that nobody handed in has no lines.
+    of them, as has who is exempt; an exercise that nobody handed in has no lines.
     """
 
     bom = Bool(False, help="Mark the file as UTF-8, without which Excel does not read accents.").tag(config=True)
@@ -33,6 +35,8 @@ class GradesAndNotes(ExportPlugin):
         ]
         cells = [cell for found in assignments for book in found.notebooks for cell in book.grade_cells]
         checks = [cell.name for cell in cells if cell.cell_type == "code"]
+        roster = read_roster(Path(self.parent.coursedir.root))
+        exempt = {(name, person.id) for person in roster.people for name in person.exempt}
         columns = [*_ABOUT, *_SCORES, "notes", *(question_id(check) for check in sorted(checks))]
         target = self.to or "grades.csv"
         self.log.info("Exporting grades to %s", target)
@@ -42,12 +46,10 @@ class GradesAndNotes(ExportPlugin):
             for assignment in assignments:
                 for student in sorted(gradebook.students, key=_by_name):
                     if not students or student.id in students:
-                        writer.writerow(
-                            {
-                                key: spreadsheet_cell(value)
-                                for key, value in _row(gradebook, assignment, student).items()
-                            }
-                        )
+                        row = _row(gradebook, assignment, student)
+                        if (assignment.name, student.id) in exempt:
+                            row = {key: row[key] for key in (*_ABOUT, "max_score") if key in row} | {"notes": "exempt"}
+                        writer.writerow({key: spreadsheet_cell(value) for key, value in row.items()})
 
 
 def _by_name(student: Student) -> tuple[str, str, str]:

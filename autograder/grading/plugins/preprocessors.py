@@ -166,7 +166,7 @@ class Summarize(NbGraderPreprocessor):
         }  # fmt: skip
         resources["autograder"] = {
             "questions": [_summary(cell) for cell in check_cells(nb).values()],
-            "said": notebook_record(nb).remarks(),
+            "said": (*filter(None, [stored.lateness]), *notebook_record(nb).remarks()),
         }
         return nb, resources
 
