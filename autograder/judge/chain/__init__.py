@@ -105,11 +105,13 @@ Modules: `frames` (a table as frames on joint axes), `freedoms`, `segments`, `pr
 
 from .compare import ChainMatch, same_chain
 from .frames import JudgedChain, NotAChain
-from .freedoms import SAME_MODEL, Freedom, Used
+from .freedoms import SAME_FRAMES, SAME_MODEL, SAME_SENSES, Freedom, Used
 from .parting import Parting
 
 __all__ = [
+    "SAME_FRAMES",
     "SAME_MODEL",
+    "SAME_SENSES",
     "ChainMatch",
     "Freedom",
     "JudgedChain",

@@ -28,6 +28,12 @@ class Freedom(StrEnum):
 SAME_MODEL = frozenset({Freedom.BASE, Freedom.TOOL, Freedom.ZERO, Freedom.SENSE})
 """Pinned together, these leave only the choice of frames between base and tool: T(q) itself must be the same."""
 
+SAME_SENSES = SAME_MODEL | {Freedom.Z}
+"""Pinned where a statement tells which way every Z points, and leaves X free."""
+
+SAME_FRAMES = SAME_SENSES | {Freedom.X, Freedom.X_DIRECTION}
+"""Pinned where a statement tells which way every Z and every X points."""
+
 Price = Callable[[Freedom, int], float]
 """What it costs to use a freedom at a joint (from 1; 0 for base and tool); infinite where it may not be used."""
 

@@ -10,7 +10,7 @@ from dhkit.forms.dh_table import DH_COLUMNS, DHTable
 
 from ..chain import SAME_MODEL, JudgedChain, NotAChain, same_chain
 from .base import Comparison, Setting
-from .entries import Entries, agreement
+from .entries import Entries, agreement, depends_on
 from .entries import read_entries as read
 
 __all__ = ["compare", "read"]
@@ -28,12 +28,27 @@ def compare(form: DHTable, student: Entries, other: Entries, setting: Setting) -
         return cells
     match = same_chain(mine, theirs, pinned=setting.pinned)
     if match.equal:
+        still = _sigma_without_joint(student, form, setting) if setting.patient else []
+        if still:
+            return replace(cells, remarks=tuple(f"row {row} holds no joint: its sigma is 0" for row in still))
         return Comparison(True, 1.0, tuple(f"another {used}" for used in match.freedoms))
     if match.parting:
         where = f"joint {match.parting.joint}: {match.parting.quantity} differs"
         remarks = cells.remarks if cells.note else (where,)
         return replace(cells, remarks=remarks)
     return Comparison(False, 1.0, match.remarks, "same_chain_other_frames")
+
+
+def _sigma_without_joint(entries: Entries, form: DHTable, setting: Setting) -> list[int]:
+    """Numbers of the rows whose sigma says that they slide although nothing in them moves."""
+    rows = [entries.expressions[start : start + WIDTH] for start in range(0, len(entries.expressions), WIDTH)]
+    sigma = entries.values(setting.samples)[:, ::WIDTH]
+    slides = np.abs(sigma).max(axis=0) > setting.tolerance
+    return [
+        number
+        for number, (row, slid) in enumerate(zip(rows, slides, strict=True), start=1)
+        if slid and depends_on(Entries(row), setting.samples).isdisjoint(form.joints)
+    ]
 
 
 def _chain(entries: Entries, form: DHTable, setting: Setting) -> JudgedChain | None:

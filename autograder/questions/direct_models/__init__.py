@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from autograder.judge import Question, mistake
+from autograder.judge.chain import SAME_SENSES
 from autograder.judge.misconceptions import (
     angle_not_summed,
     angles_subtracted,
@@ -241,6 +242,7 @@ QUESTIONS = (
             ),
         ),
         partial=0.4,
+        pinned=SAME_SENSES,
     ),
     Question(
         "direct_models.wrong_cells",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy
 
 from autograder.judge import Follow, Question, following, mistake
+from autograder.judge.chain import SAME_FRAMES
 from autograder.judge.misconceptions import (
     angle_not_summed,
     angles_subtracted,
@@ -70,6 +71,7 @@ QUESTIONS = (
             tool_in_joint_row(),
         ),
         partial=0.6,
+        pinned=SAME_FRAMES,
     ),
     Question(
         "planar_2r.model",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from autograder.judge import Follow, Question, following, mistake
+from autograder.judge.chain import SAME_SENSES
 from autograder.judge.misconceptions import (
     angle_not_summed,
     angles_subtracted,
@@ -58,6 +59,7 @@ QUESTIONS = (
             revolute_everywhere(),
         ),
         partial=0.6,
+        pinned=SAME_SENSES,
     ),
     Question(
         "scara.dhm",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy
 
 from autograder.judge import Follow, Question, following, mistake
+from autograder.judge.chain import SAME_FRAMES
 from autograder.judge.misconceptions import (
     classic_table,
     columns_exchanged,
@@ -80,6 +81,7 @@ QUESTIONS = (
             ),
         ),
         partial=0.6,
+        pinned=SAME_FRAMES,
     ),
     Question(
         "scara_s600.T14",

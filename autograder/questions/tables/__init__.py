@@ -6,6 +6,7 @@ import numpy as np
 import sympy
 
 from autograder.judge import Question, mistake
+from autograder.judge.chain import SAME_FRAMES
 from autograder.judge.misconceptions import arguments_in_degrees, misprint, offset_missing, sign_of
 from autograder.judge.steps import change_cell, change_entry, negate, replace_entry
 
@@ -270,6 +271,7 @@ QUESTIONS = (
             sign_of("alpha", 2, 4, 5, 6),
         ),
         partial=0.6,
+        pinned=SAME_FRAMES,
     ),
     Question(
         "tables.gripper",
