@@ -8,6 +8,7 @@ right in it anyway earns nothing, and costs something where it is wrong.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -34,9 +35,8 @@ def _guessed(question: Question, student: str | None) -> float:
     (right, *_) = expect_answer(question, (), student or "").forms
     if not isinstance(right, Entries):
         return 0.0
-    compared = (
-        compare(question.form, blind, right, question.setting()) for blind in _blind_answers(question.form, right)
-    )
+    setting = replace(question.setting(), patient=True)
+    compared = (compare(question.form, blind, right, setting) for blind in _blind_answers(question.form, right))
     return max((one.share for one in compared if not one.equal), default=0.0)
 
 

@@ -15,6 +15,7 @@ import sympy
 
 from dhkit import public
 from dhkit.forms import Form
+from dhkit.forms.dh_table import DH_COLUMNS
 from dhkit.forms.function import Function
 from dhkit.variants import OwnNumbers, normal_form, numbers
 
@@ -135,6 +136,10 @@ class Question:
         Largest share that right parts of an otherwise unrecognised answer can earn.
     position_share : float
         Share of the position among the parts of a transform; 0 where the statement gives it.
+    columns : tuple of str
+        The letters that the statement puts over the columns of a DHm table.
+    places : bool
+        Whether feedback may tell which parts of an answer are wrong; not where just this is the answer.
     angles : tuple of int
         Entries compared modulo 2 pi (vector entries or joints; ``(0,)`` for a single expression).
     tolerance : float
@@ -161,6 +166,8 @@ class Question:
     mistakes: tuple[Mistake, ...] = ()
     partial: float = 0.5
     position_share: float = 0.5
+    columns: tuple[str, ...] = DH_COLUMNS
+    places: bool = True
     angles: tuple[int, ...] = ()
     tolerance: float = 1e-6
     pinned: frozenset[str] = SAME_MODEL
@@ -259,6 +266,7 @@ class Question:
             self.pinned,
             residual=residual,
             position_share=self.position_share,
+            columns=self.columns,
         )
 
 

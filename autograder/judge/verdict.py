@@ -144,6 +144,8 @@ def _judge_data(question: Question, decoded: Decoded, student: str, earlier: Map
 
     against_reference = compare((), setting.turn)
     against_reference = replace(against_reference, share=beyond_guessing(question, student, against_reference))
+    if not question.places and not against_reference.equal:
+        against_reference = replace(against_reference, remarks=())
     if not against_reference.equal and _follows(question, answer, setting, student, earlier):
         return Verdict(1.0, "right_from_earlier", FORGIVEN)
     return walk(question, student, against_reference, lambda ways, turn: compare(ways, turn).equal)

@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from dhkit.forms.dh_table import DH_COLUMNS
+
 
 @dataclass(frozen=True)
 class Comparison:
@@ -48,6 +50,8 @@ class Setting:
         How far joint solutions (k, n) are from the target, (k,), in metres and radians.
     position_share : float
         Share of the position among the parts of a transform.
+    columns : tuple of str
+        The letters over the columns of a DHm table.
     family : bool
         Infinitely many solutions: every one that does not miss the target is right.
     """
@@ -60,6 +64,7 @@ class Setting:
     patient: bool = False
     residual: Callable[[np.ndarray], np.ndarray] | None = None
     position_share: float = 0.5
+    columns: tuple[str, ...] = DH_COLUMNS
     family: bool = False
 
 

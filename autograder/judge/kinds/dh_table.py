@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -9,8 +10,11 @@ import numpy as np
 from dhkit.forms.dh_table import DH_COLUMNS, DHTable
 
 from ..chain import SAME_MODEL, JudgedChain, NotAChain, same_chain
+from ..chain.freedoms import Pins
+from ..chain.senses import agreeing_cells
+from ..decode import Blank
 from .base import Comparison, Setting
-from .entries import Entries, agreement, depends_on
+from .entries import Entries, agreement, depends_on, listed
 from .entries import read_entries as read
 
 __all__ = ["compare", "read"]
@@ -24,18 +28,19 @@ def compare(form: DHTable, student: Entries, other: Entries, setting: Setting) -
     if cells.equal:
         return cells
     mine, theirs = (_chain(entries, form, setting) for entries in (student, other))
-    if mine is None or theirs is None or (not setting.patient and _ends_apart(mine, theirs, setting)):
+    if mine is None or theirs is None:
+        return _differing(student, other, setting)
+    if not setting.patient and _ends_apart(mine, theirs, setting):
         return cells
     match = same_chain(mine, theirs, pinned=setting.pinned)
     if match.equal:
         still = _sigma_without_joint(student, form, setting) if setting.patient else []
         if still:
-            return replace(cells, remarks=tuple(f"row {row} holds no joint: its sigma is 0" for row in still))
+            remarks = tuple(f"row {row} holds no joint: its sigma is 0" for row in still)
+            return replace(_differing(student, other, setting), remarks=remarks)
         return Comparison(True, 1.0, tuple(f"another {used}" for used in match.freedoms))
     if match.parting:
-        where = f"joint {match.parting.joint}: {match.parting.quantity} differs"
-        remarks = cells.remarks if cells.note else (where,)
-        return replace(cells, remarks=remarks)
+        return _differing(student, other, setting)
     return Comparison(False, 1.0, match.remarks, "same_chain_other_frames")
 
 
@@ -72,14 +77,31 @@ def _ends_apart(mine: JudgedChain, theirs: JudgedChain, setting: Setting) -> boo
 
 def _compare_cells(student: Entries, other: Entries, setting: Setting) -> Comparison:
     is_angle = [name in ("alpha", "theta") for name in DH_COLUMNS] * (len(student.expressions) // WIDTH)
-    agree = agreement(student, other, setting, is_angle).reshape(-1, WIDTH)
-    remarks = tuple(
-        f"row {i + 1}: {', '.join(name for name, same in zip(DH_COLUMNS, row, strict=True) if not same)}"
-        for i, row in enumerate(agree)
-        if not row.all()
-    )
-    if (~agree).sum() == 1:
-        remarks = (f"only one cell differs, {remarks[0].replace(':', ', column')}",)
+    agree = agreement(student, other, setting, is_angle)
+    return Comparison(bool(agree.all()), 0.0)
+
+
+def _differing(student: Entries, other: Entries, setting: Setting) -> Comparison:
+    """What differs in a table of another chain: whichever way its author drew the axes, the fewest cells."""
+    if not setting.patient:
+        return Comparison(False, 0.0)
+    theirs, ours = (entries.values(setting.samples).reshape(-1, len(entries.expressions) // WIDTH, WIDTH)
+                    for entries in (student, other))  # fmt: skip
+    agree = agreeing_cells(theirs, ours, Pins(setting.pinned), setting.tolerance)
+    blank = np.array([isinstance(entry, Blank) for entry in student.expressions]).reshape(agree.shape)
     right = agree.all(axis=1)
     note = "one_cell" if (~agree).sum() == 1 else ""
-    return Comparison(bool(right.all()), float(right.mean()), remarks, note, slip=int((~right).sum()) == 1)
+    slip = int((~right).sum()) == 1
+    return Comparison(False, float(right.mean()), (_places(~agree, blank, setting.columns),), note, slip)
+
+
+def _places(wrong: np.ndarray, blank: np.ndarray, columns: Sequence[str]) -> str:
+    """The cells that differ, row by row; rows that nobody filled in apart."""
+    empty = [f"row {i + 1} is not filled in" for i in np.flatnonzero(blank.all(axis=1))]
+    rows = [(i + 1, [columns[k] for k in np.flatnonzero(wrong[i]).tolist()])
+            for i in np.flatnonzero(wrong.any(axis=1) & ~blank.all(axis=1))]  # fmt: skip
+    places = [f"row {row}, column{'s' * (len(names) > 1)} {listed(names)}" for row, names in rows]
+    if not empty and wrong.sum() == 1:
+        return f"only one cell differs: {places[0]}"
+    differ = [f"what differs: {'; '.join(places)}"] if places else []
+    return "; ".join([*empty, *differ])

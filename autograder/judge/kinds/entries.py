@@ -146,9 +146,17 @@ def compare_entries(names: Sequence[str], student: Entries, other: Entries, sett
     """A number, an expression or a vector, entry by entry; `names` of its entries where they have some."""
     count = len(student.expressions)
     agree = agreement(student, other, setting, [i in setting.angles for i in range(count)])
-    differ = (names[i] if names else f"entry {i + 1}" for i in np.flatnonzero(~agree).tolist())
-    remarks = tuple(f"{name} differs" for name in differ) if count > 1 else ()
+    differ = [names[i] if names else str(i + 1) for i in np.flatnonzero(~agree).tolist()]
+    remarks: tuple[str, ...] = ()
+    if count > 1 and differ:
+        entry = differ[0] if names else f"entry {differ[0]}"
+        remarks = (f"only {entry} differs" if len(differ) == 1 else f"these entries differ: {listed(differ)}",)
     return Comparison(bool(agree.all()), float(agree.mean()), remarks)
+
+
+def listed(names: Sequence[str]) -> str:
+    """``a, b and c``."""
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
 def differing_cells(agree: np.ndarray) -> tuple[str, ...]:

@@ -41,9 +41,14 @@ def compare(form: Transform, student: Entries, other: Entries, setting: Setting)
 
 def _rotation_error(theirs: np.ndarray, ours: np.ndarray, where: str) -> str:
     with np.errstate(all="ignore"):
-        skew = np.abs(np.swapaxes(theirs, 1, 2) @ theirs - np.eye(theirs.shape[-1])).max()
+        products = np.swapaxes(theirs, 1, 2) @ theirs
+        lengths = np.abs(np.diagonal(products, axis1=1, axis2=2) - 1)
+        mixed = np.abs(products - np.eye(theirs.shape[-1])).max()
         angle = rotation_angle_between(theirs.real, ours.real).max()
-        rigid = skew < 1e-4 and (np.linalg.det(theirs).real > 0).all()
-    if not rigid:
-        return "its rotation block is no rotation: columns of length 1, orthogonal, right-handed"
+        left_handed = (np.linalg.det(theirs).real < 0).any()
+    if not mixed < 1e-4:
+        which = "not all of length 1" if not lengths.max() < 1e-4 else "not at right angles to each other"
+        return f"its rotation block is no rotation: its columns are {which}"
+    if left_handed:
+        return "its rotation block is no rotation: its axes are left-handed"
     return f"the rotation is off by up to {np.degrees(angle):.3g} deg{where}"

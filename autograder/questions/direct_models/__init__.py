@@ -277,6 +277,7 @@ QUESTIONS = (
             ),
         ),
         partial=0.7,
+        places=False,
     ),
     Question(
         "direct_models.U2",

@@ -82,6 +82,7 @@ QUESTIONS = (
         ),
         partial=0.6,
         pinned=SAME_FRAMES,
+        columns=("sigma", "d", "alpha", "r", "theta"),
     ),
     Question(
         "scara_s600.T14",

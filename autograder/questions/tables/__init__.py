@@ -78,6 +78,7 @@ QUESTIONS = (
                 replace_entry(4, CLASSIC),
             ),
         ),
+        places=False,
     ),
     Question(
         "tables.planar",

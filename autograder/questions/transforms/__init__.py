@@ -114,6 +114,7 @@ QUESTIONS = (
                 lambda found: [*found[:2], 1, 1, *found[4:]],
             ),
         ),
+        places=False,
     ),
     Question(
         "transforms.operators",
