@@ -7,9 +7,12 @@ Here a change is one transaction that no other program can look into (`writing`)
 
 from __future__ import annotations
 
+import errno
+import fcntl
 import os
 import sqlite3
 import sys
+import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -27,6 +30,7 @@ from .errors import CourseError
 
 # How often, and with which pause in seconds, a gradebook that somebody else is using is asked for.
 ATTEMPTS, PAUSE = 120, 0.5
+_NO_LOCKS = (errno.ENOLCK, errno.ENOSYS, errno.EOPNOTSUPP, errno.EINVAL)
 
 
 class GradebookError(CourseError):
@@ -152,7 +156,7 @@ def _start(session: Session, path: Path | None) -> None:
             return
         except DBAPIError as error:
             session.rollback()
-            if not _is_busy(error) or attempt == ATTEMPTS - 1:
+            if not _is_busy(error) or attempt == ATTEMPTS - 1 or (path is not None and not _has_locks(path.parent)):
                 raise
         if attempt == 0:
             print(f"waiting: {path} is in use by another program", file=sys.stderr)
@@ -163,11 +167,24 @@ def _is_busy(error: DBAPIError) -> bool:
     return getattr(error.orig, "sqlite_errorname", "").startswith(("SQLITE_BUSY", "SQLITE_LOCKED"))
 
 
+def _has_locks(folder: Path) -> bool:
+    """Whether files can be locked there; SQLite calls a gradebook busy also where they cannot."""
+    try:
+        with tempfile.TemporaryFile(dir=folder) as file:
+            fcntl.lockf(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        return error.errno not in _NO_LOCKS
+    return True
+
+
 def _in_words(error: DBAPIError, path: Path | None) -> str:
     name = getattr(error.orig, "sqlite_errorname", "")
     safe = "what was graded before is safe"
     if path is None:
         return f"the gradebook says: {error.orig}"
+    no_locks = "its file system, perhaps a folder of the network, has no locks; move the course to another disk"
+    if _is_busy(error) and not _has_locks(path.parent):
+        return f"{path} cannot be used: {no_locks}; {safe}"
     if _is_busy(error):
         return f"{path} is held by another program; close it (formgrader, another grader, a database browser) and run the command again; {safe}"
     if name.startswith(("SQLITE_CORRUPT", "SQLITE_NOTADB", "SQLITE_FORMAT")):
@@ -178,8 +195,10 @@ def _in_words(error: DBAPIError, path: Path | None) -> str:
         return f"{path}: no space left; make room on its disk, then run the command again; {safe}"
     if name.startswith(("SQLITE_CANTOPEN", "SQLITE_PERM", "SQLITE_AUTH")):
         return f"{path} cannot be opened ({error.orig}); look at its rights and those of its folder"
-    if name.startswith(("SQLITE_IOERR", "SQLITE_PROTOCOL", "SQLITE_NOLFS")):
-        return f"{path} cannot be used ({error.orig}): its file system has no locks, no space or a fault; {safe}"
+    if name.startswith(("SQLITE_IOERR_LOCK", "SQLITE_IOERR_RDLOCK", "SQLITE_PROTOCOL")):
+        return f"{path} cannot be used ({error.orig}): {no_locks}; {safe}"
+    if name.startswith(("SQLITE_IOERR", "SQLITE_NOLFS")):
+        return f"{path} cannot be used ({error.orig}): its file system has no space or a fault; {safe}"
     if "no such column" in str(error.orig) or "no such table" in str(error.orig):
         return f"{path} was made by another version of nbgrader ({error.orig}); copy it, then run: nbgrader db upgrade"
     return f"{path}: {error.orig}"

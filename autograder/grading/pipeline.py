@@ -18,7 +18,7 @@ from dataclasses import replace
 import nbformat
 from nbgrader.preprocessors import AssignLatePenalties
 
-from autograder.sandbox import cancel_runs
+from autograder.sandbox import cancel_runs, sweep
 
 from .changes import by_hand, moved, points_given
 from .collecting.receipts import read_receipts, receipts_folder
@@ -69,6 +69,7 @@ def grade(
     course.choose(exercise)
     converter = SubmissionAutograde(coursedir=course.app.coursedir, parent=course.app)
     refuse_unless_ready(converter)
+    sweep()
     names = notebook_names(converter)
     runner = SandboxExecute(parent=converter)
     _bring_up_dates(course, exercise, converter)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from .bubblewrap import SandboxUnavailable, available
     from .client import CellRun, KernelStartError
     from .run import Run, cancel_runs, run_notebook
+    from .scratch import sweep
 from .workdir import NotPlain, TooLarge, plain_bytes, plain_files, read_folders
 
 __all__ = [
@@ -34,6 +35,7 @@ __all__ = [
     "plain_files",
     "read_folders",
     "run_notebook",
+    "sweep",
 ]
 
 _MODULES = {
@@ -44,6 +46,7 @@ _MODULES = {
     "available": "bubblewrap",
     "cancel_runs": "run",
     "run_notebook": "run",
+    "sweep": "scratch",
 }
 
 

@@ -21,8 +21,8 @@ class PrivateFolder:
     """
 
     def __init__(self) -> None:
-        base = tempfile.gettempdir() if len(tempfile.gettempdir()) <= _BASE_BYTES else "/tmp"
-        sweep(Path(base))
+        base = _base()
+        sweep()
         while True:
             self.path = Path(tempfile.mkdtemp(prefix=PREFIX, dir=base))
             self._lock = os.open(self.path, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
@@ -44,9 +44,14 @@ class PrivateFolder:
         self.remove()
 
 
-def sweep(base: Path) -> None:
-    """Remove the private folders of this user in `base` whose process is gone."""
-    for folder in base.glob(PREFIX + "*"):
+def _base() -> Path:
+    base = tempfile.gettempdir()
+    return Path(base if len(base) <= _BASE_BYTES else "/tmp")
+
+
+def sweep() -> None:
+    """Remove the private folders of this user whose process is gone."""
+    for folder in _base().glob(PREFIX + "*"):
         with contextlib.suppress(OSError):
             if folder.lstat().st_uid != os.geteuid():
                 continue

@@ -137,6 +137,30 @@ def test_an_environment_that_lacks_a_library_is_refused_by_its_name(graded, smal
     assert graded()[1]["ann"]["score"] == 20
 
 
+BROKEN = 'raise RuntimeError("this library is broken")'
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("package", ["sympy", "numpy", "dhkit"])
+@pytest.mark.parametrize("what", ["missing", "broken"])
+def test_whatever_cannot_be_imported_in_the_sandbox_is_refused_by_its_name(
+    graded, small, course_copy, released, tmp_path, monkeypatch, package, what
+):
+    """The kit may be on PYTHONPATH only, a library installed for another processor, or half of it deleted."""
+    small.hand_in(course_copy, "ann", small.answered(released, d2_sign="import numpy; d2_sign = 'B'"))
+    (tmp_path / "__init__.py").write_text(BROKEN)
+    place = bubblewrap.package_folder(package)
+    hidden = ["--perms", "0755", "--tmpfs", place]
+    shadow = hidden if what == "missing" else ["--ro-bind", str(tmp_path / "__init__.py"), f"{place}/__init__.py"]
+    found = bubblewrap.mounts
+    monkeypatch.setattr(bubblewrap, "mounts", lambda *arguments: [*found(*arguments), *shadow])
+    monkeypatch.setattr(bubblewrap, "available", lambda: None)
+    code, results, said = graded()
+    assert (code, results) == (2, {})
+    assert package in said and "sandbox" in said and "Traceback" not in said
+    assert not (course_copy / "autograded").exists() and not (course_copy / "feedback").exists()
+
+
 def test_a_library_that_goes_missing_on_the_way_costs_nobody_a_point(graded, small, course_copy, released, monkeypatch):
     for student in ("ann", "ben"):
         small.hand_in(course_copy, student, small.answered(released))

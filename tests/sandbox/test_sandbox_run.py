@@ -301,7 +301,7 @@ def test_folders_of_killed_graders_are_removed_at_the_next_start(tmp_path, monke
     with scratch.PrivateFolder() as own:
         assert not left.exists() and kept.exists() and own.exists() and foreign.exists()
     graders[1].communicate("")
-    scratch.sweep(tmp_path)
+    scratch.sweep()
     assert list(tmp_path.iterdir()) == [foreign]
 
 

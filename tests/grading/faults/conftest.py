@@ -30,13 +30,14 @@ from dhkit import wire
 CHOICES = {"right": "B", "wrong": "C"}
 ENTRIES = """
 select student.id, base_cell.name, grade.auto_score, comment.auto_comment from submitted_assignment
+join assignment on assignment.id = submitted_assignment.assignment_id
 join student on student.id = submitted_assignment.student_id
 join submitted_notebook on submitted_notebook.assignment_id = submitted_assignment.id
 join grade on grade.notebook_id = submitted_notebook.id
 join base_cell on base_cell.id = grade.cell_id
 join base_cell as answer on answer.name = base_cell.name || '-answer' and answer.notebook_id = base_cell.notebook_id
 join comment on comment.notebook_id = submitted_notebook.id and comment.cell_id = answer.id
-order by student.id, base_cell.name"""
+where assignment.name = ? order by student.id, base_cell.name"""
 
 
 def prepared(self, nb, folder, released, student, course):
@@ -54,10 +55,11 @@ def hand_in(small, root, released, student, word):
     small.hand_in(root, student, small.answered(released, T04="# nothing", d2_sign=f"# {word}", forward="# nothing"))
 
 
-def entries(root):
+def entries(root, exercise="scara"):
+    """Student, question, points and note of everything that is graded; the gradebook is sound."""
     with sqlite3.connect(root / "gradebook.db") as connection:
         assert connection.execute("pragma integrity_check").fetchone() == ("ok",)
-        return connection.execute(ENTRIES).fetchall()
+        return connection.execute(ENTRIES, (exercise,)).fetchall()
 
 
 def files_below(root):
@@ -209,6 +211,7 @@ def faults(small):
     """The helpers of this file, by name."""
     return SimpleNamespace(
         Steps=Steps,
+        as_from_a_terminal=as_from_a_terminal,
         start=start,
         ended=ended,
         run=run,

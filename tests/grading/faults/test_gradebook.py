@@ -1,5 +1,6 @@
 """The gradebook decides: held, damaged, older, lost or put back, and nothing is silently wrong."""
 
+import errno
 import os
 import shutil
 import sqlite3
@@ -7,8 +8,10 @@ import subprocess
 import sys
 
 import pytest
+import sqlalchemy
 from nbgrader.api import Gradebook
 from nbgrader.apps import AutogradeApp, GenerateFeedbackApp
+from sqlalchemy.exc import OperationalError
 
 from autograder import cli
 from autograder.grading import gradebook
@@ -69,6 +72,41 @@ def test_grading_waits_until_the_other_program_is_done(course, faults, right, ca
     monkeypatch.setattr(gradebook.time, "sleep", done_meanwhile)
     assert faults.grade(course) == 0 and unchanged(faults, course, right)
     assert capsys.readouterr().err.count("waiting: ") == 1
+
+
+WITHOUT_LOCKS = {
+    # As sqliteErrorFromPosixError of SQLite's os_unix.c translates them.
+    errno.ENOLCK: ("SQLITE_BUSY", "database is locked"),
+    errno.EOPNOTSUPP: ("SQLITE_IOERR_LOCK", "disk I/O error"),
+}
+
+
+@pytest.mark.parametrize("number", WITHOUT_LOCKS, ids=errno.errorcode.get)
+def test_a_file_system_without_locks_is_said_at_once(course, faults, right, number, monkeypatch, capfd):
+    name, words = WITHOUT_LOCKS[number]
+
+    def refuse(*lock):
+        raise OSError(number, os.strerror(number))
+
+    def action():
+        monkeypatch.setattr(gradebook.fcntl, "lockf", refuse)
+        monkeypatch.setattr(gradebook.time, "sleep", lambda seconds: pytest.fail("there is nothing to wait for"))
+
+        @sqlalchemy.event.listens_for(sqlalchemy.Engine, "before_cursor_execute")
+        def lock(connection, cursor, statement, *more):
+            error = sqlite3.OperationalError(words)
+            error.sqlite_errorname = name
+            raise OperationalError(statement, {}, error)
+
+        return faults.grade(course)
+
+    assert faults.run(action) == 1
+    said = capfd.readouterr().err
+    assert (
+        f"{course / 'gradebook.db'} cannot be used" in said and "has no locks; move the course to another disk" in said
+    )
+    assert "waiting: " not in said and "Traceback" not in said
+    assert faults.grade(course) == 0 and unchanged(faults, course, right)
 
 
 # ---------------------------------------------------------------- damaged

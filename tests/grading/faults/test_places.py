@@ -105,6 +105,17 @@ def test_a_file_where_a_folder_should_be_is_said(course, faults, capsys):
     assert "the points are in the gradebook, but there is no feedback page: " in lines(capsys)["old"]["found"]
 
 
+def test_what_a_killed_grader_left_in_the_temporary_folder_goes_with_the_next_run(
+    course, faults, tmp_path, monkeypatch
+):
+    assert faults.grade(course) == 0
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    (tmp_path / "ag-run-left/work").mkdir(parents=True)
+    (tmp_path / "ag-run-left/work/answer.txt").write_text("mine")
+    assert faults.grade(course) == 0  # there is nothing to do
+    assert not list(tmp_path.glob("ag-run-*"))
+
+
 # ---------------------------------------------------------------- environments
 
 
