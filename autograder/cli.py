@@ -35,6 +35,12 @@ def _seconds(text: str) -> float:
     return number
 
 
+def _points_of(text: str) -> float:
+    if not 0 <= (number := float(text)) < float("inf"):
+        raise argparse.ArgumentTypeError("must be 0 or more")
+    return number
+
+
 _UNITS = {"bytes": (_bytes, "BYTES"), "seconds": (_seconds, "S"), "count": (_positive, "N")}
 
 
@@ -138,6 +144,9 @@ def _parser() -> argparse.ArgumentParser:
     release = command(
         "release", _release, "Make the students' notebooks from the solutions.", "autograder release scara"
     )
+    release.add_argument(
+        "--yes", action="store_true", help="do not ask where questions are added or removed that people have answered"
+    )
     release.add_argument("exercise", nargs="*", help="exercises to release (default: all)")
     release.add_argument(
         "--home",
@@ -147,6 +156,18 @@ def _parser() -> argparse.ArgumentParser:
     )
     release.add_argument("--anew", action="store_true", help="seal with a new salt, for a new term")
     release.add_argument("--table", action="store_true", help="print what is sealed, and the arithmetic behind it")
+
+    points = command(
+        "points",
+        _points,
+        "Change what a question is worth: other points (0 drops it), or full points for everybody.",
+        "autograder points scara.postures --everybody",
+    )
+    points.add_argument("question", help="for example scara.postures")
+    points.add_argument("points", nargs="?", type=_points_of, metavar="N", help="the most points, 0 or more")
+    judged = points.add_mutually_exclusive_group()
+    judged.add_argument("--everybody", action="store_true", help="all who hand in get them, whatever they answered")
+    judged.add_argument("--judged", action="store_true", help="answers are judged again")
 
     roster = command(
         "roster",
@@ -286,12 +307,15 @@ def _course(options, config=None):
 
 
 def _release(options) -> int:
-    from autograder.grading.release import release
+    from autograder.grading.release import changes_ahead, release
     from autograder.grading.table import progress_bar, sealed_table
     from autograder.questions import of_exercise
 
     course = _course(options)
     for exercise in options.exercise or course.exercises():
+        if not options.yes and not _agreed(exercise, changes_ahead(course, exercise)):
+            print(f"{exercise} was not released; everything is as it was")
+            continue
         with progress_bar(f"sealing {exercise}", len(of_exercise(exercise))) as told:
             released = release(course, exercise, options.home, options.anew, told)
         changes = released.changes
@@ -303,6 +327,35 @@ def _release(options) -> int:
                 print(
                     f"  {what}: {', '.join(questions)}; for {changes.submissions} submissions, run: autograder grade {exercise}"
                 )
+    return 0
+
+
+def _agreed(exercise: str, changes) -> bool:
+    """Whether questions are to be added or removed that people have answered; True where there are none."""
+    from autograder.grading.errors import CourseError
+
+    if not changes.submissions or not (changes.added or changes.removed):
+        return True
+    print(f"{changes.submissions} submissions of {exercise} are there.", file=sys.stderr)
+    if changes.added:
+        print(f"New: {', '.join(changes.added)}; no points for them until they are graded again.", file=sys.stderr)
+    if changes.removed:
+        print(f"No longer asked: {', '.join(changes.removed)}; their points and comments go.", file=sys.stderr)
+    if not sys.stdin.isatty():
+        raise CourseError(f"{exercise} was not released; say --yes if that is what you want")
+    return input("Release? [y/N] ").strip().lower() in ("y", "yes")
+
+
+def _points(options) -> int:
+    from autograder.grading.points import set_worth
+
+    for_everybody = True if options.everybody else False if options.judged else None
+    worth = set_worth(_course(options), options.question, options.points, for_everybody)
+    print(
+        f"{options.question}: {worth.points:g} points" + (", for everybody who hands in" if worth.for_everybody else "")
+    )
+    exercise = options.question.partition(".")[0]
+    print(f"run: autograder release {exercise}, then: autograder grade {exercise}")
     return 0
 
 

@@ -18,5 +18,6 @@ results        what was found, one line per submission
 explain        how one verdict came about; changes: whose points moved when graded again
 returning      grades and pages as platforms take them back
 report/        the class report
+points         what a question is worth
 release, bundle, doctor    the other commands; table shows results and report in a terminal
 """

@@ -17,6 +17,8 @@ from typing import Any, TypeVar
 from nbformat.notebooknode import NotebookNode
 
 KEY = "autograder"
+FOR_EVERYBODY = "full_points_for_everybody"
+"""Metadata of a check cell: all who hand in get its points, whatever they answered."""
 VERSION = 2
 _ANSWER = "-answer"
 
@@ -36,6 +38,11 @@ def check_name(cell: NotebookNode) -> str | None:
 def is_check(cell: NotebookNode) -> bool:
     """True for the check cell of a question."""
     return check_name(cell) is not None
+
+
+def counts_for_everybody(cell: NotebookNode) -> bool:
+    """True for a check cell whose points all who hand in get."""
+    return bool(cell.metadata.get(FOR_EVERYBODY))
 
 
 def keeps_source(cell: NotebookNode) -> bool:

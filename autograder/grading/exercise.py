@@ -68,6 +68,11 @@ class Changes:
     removed: tuple[str, ...] = ()
 
 
+def asked_before(assignment: Assignment) -> set[str]:
+    """Ids of the cells that earn points, as the gradebook knows them."""
+    return {cell.name for notebook in assignment.notebooks for cell in (*notebook.grade_cells, *notebook.task_cells)}
+
+
 def update(session: Session, exercise: str, course_id: str, released: Mapping[str, ReleasedCells]) -> Changes:
     """Enter an exercise in the gradebook, or bring it up to what is released now.
 
@@ -83,7 +88,7 @@ def update(session: Session, exercise: str, course_id: str, released: Mapping[st
         assignment = Assignment(name=exercise, course_id=course_id)
         session.add(assignment)
         session.flush()
-    before = {cell.name for notebook in assignment.notebooks for cell in (*notebook.grade_cells, *notebook.task_cells)}
+    before = asked_before(assignment)
     for notebook in list(assignment.notebooks):
         if notebook.name not in released:
             _remove(session, notebook)

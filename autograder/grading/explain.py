@@ -17,7 +17,7 @@ from autograder.judge.account import Account, account
 from autograder.sandbox import available
 from dhkit.variants import normal_form
 
-from .cells import answer_id, check_cells, check_id, notebook_record, question_id, tracked_cells
+from .cells import answer_id, check_cells, check_id, counts_for_everybody, notebook_record, question_id, tracked_cells
 from .course import Course
 from .entries import note_of, score
 from .errors import CourseError
@@ -43,6 +43,8 @@ class Explanation:
         What stands in the answer's cell.
     trouble : str or None
         Why it did not run, if it did not.
+    for_everybody : bool
+        Whether all who hand in get the points.
     stored, comment
         What the gradebook holds; None if it was never graded.
     earlier : str or None
@@ -57,6 +59,7 @@ class Explanation:
     max_score: float
     source: str
     trouble: str | None
+    for_everybody: bool
     account: Account
     stored: StoredGrade | None
     comment: StoredComment | None
@@ -114,6 +117,7 @@ def explain(course: Course, student: str, question: str) -> Explanation:
         float(asked[check].metadata.nbgrader["points"]),
         tracked_cells(nb)[answer_id(check)].source,
         evidence[check].trouble,
+        counts_for_everybody(asked[check]),
         account(this, evidence[check], student, earlier),
         stored.grades.get(check) if stored else None,
         stored.comments.get(answer_id(check)) if stored else None,
@@ -179,7 +183,8 @@ def _parts(found: Explanation, with_answer: bool, whole_tree: bool) -> list[tupl
     """Headings and texts, in the order in which one asks."""
     told = found.account
     verdict = told.verdict
-    points = f"{score(verdict.share, found.max_score):g} of {found.max_score:g} points"
+    share = 1.0 if found.for_everybody else verdict.share
+    points = f"{score(share, found.max_score):g} of {found.max_score:g} points"
     parts = [
         (f"{found.question}: {found.title}", f"{found.student}: {points}, {verdict.note}"),
         ("In the gradebook", _gradebook(found)),
@@ -188,6 +193,8 @@ def _parts(found: Explanation, with_answer: bool, whole_tree: bool) -> list[tupl
         ("What the student is told", verdict.feedback),
         ("What decided", _tree(told, whole_tree)),
     ]
+    if found.for_everybody:
+        parts.append(("For everybody", "this question counts fully for all who handed in"))
     if told.numbers:
         own = ", ".join(f"{name} = {value}" for name, value in told.numbers.items())
         parts.append(("The student's own numbers", own))

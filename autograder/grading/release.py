@@ -8,6 +8,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 import nbformat
+from nbgrader.api import Assignment
+from nbgrader.utils import is_grade, is_task
+from sqlalchemy import select
 
 from autograder import questions
 from autograder.sealing import Decision, seal_exercise
@@ -15,7 +18,8 @@ from dhkit.home import envelopes
 
 from .cells import answer_id, check_cells, question_id, tracked_cells
 from .course import Course, convert
-from .exercise import Changes
+from .exercise import Changes, asked_before
+from .gradebook import is_made, reading
 from .plugins.assignment import AssignmentRelease
 
 Home = Literal["sealed", "form"]
@@ -78,6 +82,32 @@ def release(
         converter.beside = {name: envelopes.encoded(sealed)}
     convert(converter)
     return Released(converter.changes, tuple(made))
+
+
+def changes_ahead(course: Course, exercise: str) -> Changes:
+    """What a release would change for those who handed in already.
+
+    Raises
+    ------
+    CourseError
+        If there is no such exercise.
+    """
+    course.require(exercise)
+    if not is_made(course.db_url):
+        return Changes()
+    after = {
+        name
+        for path in course.step("source", ".", exercise).glob("*.ipynb")
+        for name, cell in tracked_cells(nbformat.read(path, as_version=4)).items()
+        if is_grade(cell) or is_task(cell)
+    }
+    with reading(course.db_url) as session:
+        assignment = session.scalars(select(Assignment).where(Assignment.name == exercise)).one_or_none()
+        if assignment is None:
+            return Changes()
+        before = asked_before(assignment)
+        count = len(assignment.submissions)
+    return Changes(count, tuple(sorted(after - before)), tuple(sorted(before - after)))
 
 
 def points(notebook: nbformat.NotebookNode) -> dict[str, float]:

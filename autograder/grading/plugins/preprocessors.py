@@ -30,6 +30,7 @@ from ..cells import (
     check_cells,
     check_name,
     check_record,
+    counts_for_everybody,
     notebook_record,
     question_id,
     tracked_cells,
@@ -140,14 +141,17 @@ class JudgeAnswers(NbGraderPreprocessor):
         verdict = judge(question, evidence, resources["nbgrader"]["student"], earlier)
         if is_forgivable(verdict):
             earlier[question.id] = evidence
-        earned = score(verdict.share, float(cell.metadata.nbgrader["points"]))
+        share, feedback = verdict.share, verdict.feedback
+        if counts_for_everybody(cell):
+            share, feedback = 1.0, f"**This question counts fully for everybody.** Of your answer:\n\n{feedback}"
+        earned = score(share, float(cell.metadata.nbgrader["points"]))
         cell.outputs = [
-            new_output("display_data", data={"text/markdown": verdict.feedback, "text/plain": verdict.feedback}),
+            new_output("display_data", data={"text/markdown": feedback, "text/plain": feedback}),
             new_output("execute_result", data={"text/plain": str(earned)}, execution_count=cell.execution_count),
         ]
         trouble = terminal_text(evidence.trouble) if evidence.trouble else None
         answer = keep(question.id, evidence.packet) if is_unexplained(verdict.note) else None
-        write_record(cell, CheckRecord(verdict.note, verdict.share, trouble, answer))
+        write_record(cell, CheckRecord(verdict.note, share, trouble, answer))
         return cell, resources
 
 

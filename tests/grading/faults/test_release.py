@@ -23,7 +23,7 @@ def released(root):
 
 
 def release(root):
-    return cli.main(["release", "--home", "form", "scara", "--course", str(root)])
+    return cli.main(["release", "--yes", "--home", "form", "scara", "--course", str(root)])
 
 
 def edited(root, edit):
