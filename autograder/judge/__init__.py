@@ -9,7 +9,8 @@ from dhkit.wire import MIME
 from .decode import Malformed
 from .question import Family, Follow, Mistake, Question, mistake
 from .tree import Verdict, is_forgivable
-from .verdict import Evidence, judge, plain
+from .verdict import Evidence, judge
+from .written import plain
 
 __all__ = [
     "MIME",

@@ -16,6 +16,7 @@ from dhkit import wire
 
 from .decode import Blank, Decoded, Function, Malformed, Number, decode, decode_answer
 from .kinds import Entries, compare, read
+from .probing import EXAMPLES
 from .question import Family, Question
 from .tree import UNEXPLAINED
 
@@ -112,7 +113,7 @@ def cluster(question: Question, attempts: Iterable[Attempt]) -> tuple[Cluster, .
     words: dict[str, list[int]] = {}
     for i, form in enumerate(forms):
         if form is None:
-            words.setdefault(_MEASURE.sub("...", attempts[i].feedback), []).append(i)
+            words.setdefault(_MEASURE.sub("...", attempts[i].feedback.partition(EXAMPLES)[0]), []).append(i)
             continue
         for group in alike:
             first = forms[group[0]]

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import replace
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .decode import Decoded, Malformed
+from .decode import Decoded, Failure, Malformed
 from .expected import expect_result, read_result
 from .kinds import Comparison
 from .kinds import compare as compare_answers
 from .question import Question, Way
 from .tree import Verdict, nearest, walk
+from .written import plain, written
+
+# Characters of an argument list that is told with all its digits, and at all, and of what came back.
+MOST_DIGITS, MOST_ARGUMENTS, MOST_RETURNED = 160, 400, 200
 
 
 def judge_results(question: Question, arguments: list[list], results: Sequence[Decoded], student: str) -> Verdict:
@@ -30,28 +35,44 @@ def judge_results(question: Question, arguments: list[list], results: Sequence[D
     def compare(ways: tuple[Way, ...], turn: float, args: list, result: object) -> Comparison:
         return compare_result(question, student, ways, turn, args, result)
 
-    cases: dict[str, list[tuple[list, Comparison]]] = {}
-    for args, result in calls:
-        cases.setdefault(question.case(*args), []).append((args, compare((), 2 * np.pi, args, result)))
-    wrong = {case for case, asked in cases.items() if not all(compared.equal for _, compared in asked)}
-    answers = {
-        case: {repr(expect_result(question, (), student, args).forms) for args, _ in asked}
+    cases: dict[str, list[Call]] = {}
+    for args, raw, result in zip(arguments, results, found, strict=True):
+        call = Call(args, raw, result, compare((), 2 * np.pi, args, result))
+        cases.setdefault(question.case(*args), []).append(call)
+    # The first call of each case that shows what is wrong.
+    wrong = {
+        case: next(call for call in asked if not call.compared.equal)
+        for case, asked in cases.items()
+        if not all(call.compared.equal for call in asked)
+    }
+    answers = [
+        {repr(expect_result(question, (), student, call.args).forms) for call in asked}
         for case, asked in cases.items()
         if case not in wrong
-    }
-    remarks = tuple(_describe(case, [compared for _, compared in cases[case]]) for case in cases if case in wrong)
-    against_reference = Comparison(not wrong, _count(answers.values()) / len(cases), remarks)
+    ]
+    remarks = tuple(_describe(case, call) for case, call in wrong.items())
     verdict = walk(
         question,
         student,
-        against_reference,
+        Comparison(not wrong, _count(answers) / len(cases), remarks),
         lambda ways, turn: all(compare(ways, turn, *call).equal for call in calls),
     )
+    if not wrong:
+        return verdict
     if verdict.note == "nothing_matched" and len(set(results)) == 1:
-        return replace(
-            verdict, feedback="**Not right.** Your function returns the same for all arguments that were tried."
-        )
-    return verdict
+        feedback = "**Not right.** Your function returns the same for all arguments that were tried."
+        return replace(verdict, feedback=feedback)
+    return replace(verdict, feedback=f"{verdict.feedback}\n\n{_examples(list(wrong.values()))}")
+
+
+@dataclass(frozen=True)
+class Call:
+    """One list of arguments, what the student's function returned for it, as it came and as it was read, and how that compares."""
+
+    args: list
+    raw: Decoded
+    result: object
+    compared: Comparison
 
 
 def compare_result(
@@ -70,17 +91,51 @@ def compare_result(
     return nearest(beside(other) for other in expected.forms)
 
 
-def _count(answers: Iterable[set[str]]) -> int:
+def _count(answers: list[set[str]]) -> int:
     """How many of the cases that are right show something; `answers` are the different right answers of each.
 
     A constant is right now and then, "no solution" wherever there is none: it is right for cases that all have this one
     answer, and they count only beside a case that has another.
     """
-    answers = list(answers)
     return len(answers) if len(set().union(*answers)) > 1 else 0
 
 
-def _describe(case: str, compared: list[Comparison]) -> str:
+def _describe(case: str, call: Call) -> str:
     """Which case is wrong, and by what at the first argument list that shows it."""
-    remark = next((one.remarks[-1] for one in compared if not one.equal and one.remarks), "")
+    remark = "; ".join(call.compared.remarks)
     return f"wrong for {case}" + (f" ({remark})" if remark else "")
+
+
+EXAMPLES = "For example, with"
+MOST_EXAMPLES = 3
+
+
+def _examples(calls: list[Call]) -> str:
+    """With which arguments it went wrong, and what came back: enough to try it at home, and nothing of the right result."""
+    return (
+        f"{EXAMPLES} "
+        + "; with ".join(f"`{_told(call.args)}` {_came_back(call)}" for call in calls[:MOST_EXAMPLES])
+        + "."
+    )
+
+
+def _came_back(call: Call) -> str:
+    if isinstance(call.raw.value, Failure):
+        return f"it stopped: {plain(call.raw.value.message)}"
+    if isinstance(call.result, Malformed):
+        return f"what it returned is not in the form asked for: {plain(str(call.result))}"
+    return f"it returned {plain(written(call.raw.value, MOST_RETURNED))}"
+
+
+def _told(args: list) -> str:
+    """Arguments as one would type them: with all digits where there are few, else rounded."""
+    text = ", ".join(map(json.dumps, args))
+    if len(text) > MOST_DIGITS:
+        text = ", ".join(json.dumps(_rounded(arg)) for arg in args)
+    return text if len(text) <= MOST_ARGUMENTS else f"{text[: MOST_ARGUMENTS - 3]}..."
+
+
+def _rounded(arg: object) -> object:
+    if isinstance(arg, list):
+        return [_rounded(item) for item in arg]
+    return float(f"{arg:.5g}") if isinstance(arg, float) else arg

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
@@ -22,6 +21,7 @@ from .kinds.entries import depends_on
 from .probing import judge_results
 from .question import Question, Way
 from .tree import Verdict, nearest, walk
+from .written import plain
 
 FORGIVEN = "**Right for your own earlier answer.** What went wrong there has been counted there; from it you went on correctly."
 
@@ -86,17 +86,6 @@ def _judge_for_another(question: Question, evidence: Evidence, answer: Decoded, 
     whose = "nobody: no id was typed at the top of the notebook" if typed == NOBODY else f"the id {plain(typed)}"
     feedback = f"**Right, but for the numbers of another student**: for those of {whose}. Type your own id at the top, and answer with your numbers."
     return Verdict(0.0, "numbers_of_another_student", feedback)
-
-
-def plain(text: str) -> str:
-    """`text` made harmless for Markdown, HTML and terminals, and short."""
-    text = re.sub(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069]+", " ", text)[:300]
-    return (
-        re.sub(r"([\\`*_{}\[\]<>()#+!|$~&])", r"\\\1", text)
-        .replace("\\<", "&lt;")
-        .replace("\\>", "&gt;")
-        .replace("\\&", "&amp;")
-    )
 
 
 _TROUBLE = {

@@ -1,10 +1,11 @@
 """Decoded answers as plain text, the way one would type them: for people who look at a class.
 
-The text is short and printable whatever was handed in; it is not yet safe for HTML or a spreadsheet.
+The text is short and printable whatever was handed in; it is not yet safe for HTML or a spreadsheet, see `plain`.
 """
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 
 from .decode import Blank, Call, Constant, Expression, Failure, Foreign, Function, Number, Record, Symbol, Text, Value
@@ -134,3 +135,14 @@ def _power(base, exponent) -> _Part:
         case Number(int() | Fraction() as number) if number < 0:
             return f"1/{_within(_power(base, Number(-number)), _POWER)}", _PRODUCT
     return f"{_within(_expression(base), _ATOM)}**{_within(_expression(exponent), _ATOM)}", _POWER
+
+
+def plain(text: str) -> str:
+    """`text` made harmless for Markdown, HTML and terminals, and short."""
+    text = re.sub(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069]+", " ", text)[:300]
+    return (
+        re.sub(r"([\\`*_{}\[\]<>()#+!|$~&])", r"\\\1", text)
+        .replace("\\<", "&lt;")
+        .replace("\\>", "&gt;")
+        .replace("\\&", "&amp;")
+    )

@@ -295,7 +295,8 @@ QUESTIONS = (
             mistake(
                 "out_of_reach_fails",
                 0.7,
-                "**Out of reach your function fails instead of returning an empty list.** Test the sine of t3 first.",
+                "**Out of reach your function does not return an empty list.** Test the sine of t3 first, and return `[]` where there is no "
+                "angle.",
                 wrong={"beyond": None},
             ),
             degrees(0, 1, 2, 3, 4, 5),

@@ -227,8 +227,8 @@ QUESTIONS = (
             mistake(
                 "out_of_reach_fails",
                 0.7,
-                "**Out of reach your function fails instead of returning an empty list.** Test the cosine of t2 before "
-                "you take acos.",
+                "**Out of reach your function does not return an empty list.** Test the cosine of t2 before you take acos, and return `[]` "
+                "where there is no angle.",
                 wrong={"beyond": None},
             ),
             degrees(0, 1),
