@@ -22,6 +22,9 @@ from dhkit.variants import OwnNumbers, normal_form, numbers
 from .chain import SAME_MODEL
 from .kinds import Setting
 
+EXACT = 1e-6
+"""Largest accepted difference of what is not rounded: whole numbers, and expressions at sample points."""
+
 Draw = Callable[[np.random.Generator], dict[str, float]]
 Answer = Any
 """Anything `dhkit.wire.encode` takes, or a `Family`; a function for a question that is probed."""
@@ -142,8 +145,9 @@ class Question:
         Whether feedback may tell which parts of an answer are wrong; not where just this is the answer.
     angles : tuple of int
         Entries compared modulo 2 pi (vector entries or joints; ``(0,)`` for a single expression).
-    tolerance : float
-        Largest accepted difference, relative to the larger of 1 and the reference's size; metres for a point cloud.
+    tolerance : float, optional
+        Largest accepted difference, relative to the larger of 1 and the reference's size; metres for a point cloud. It
+        is one unit of the last decimal that the public half asks for, unless it is given.
     pinned : set of str
         Freedoms of the DHm convention that a right table may not use; the default leaves free what no
         statement fixes: the senses of the axes between base and tool, and origins along parallel axes.
@@ -169,7 +173,7 @@ class Question:
     columns: tuple[str, ...] = DH_COLUMNS
     places: bool = True
     angles: tuple[int, ...] = ()
-    tolerance: float = 1e-6
+    tolerance: float | None = None
     pinned: frozenset[str] = SAME_MODEL
     draw: Draw | None = None
     probe: Callable[..., list[list]] | None = None
@@ -205,6 +209,14 @@ class Question:
         """The form of what the function returns that is asked for."""
         assert isinstance(self.form, Function)
         return self.form.returns
+
+    @cached_property
+    def accuracy(self) -> float:
+        """Largest accepted difference (see `tolerance`)."""
+        if self.tolerance is not None:
+            return self.tolerance
+        form = self.returns if isinstance(self.form, Function) else self.form
+        return EXACT if form.decimals is None else 10.0**-form.decimals
 
     @property
     def exercise(self) -> str:
@@ -262,7 +274,7 @@ class Question:
         return Setting(
             self.samples,
             self.angles,
-            self.tolerance,
+            self.accuracy,
             self.pinned,
             residual=residual,
             position_share=self.position_share,

@@ -53,7 +53,8 @@ def walk(question: Question, student: str, against_reference: Comparison, matche
     """
     if against_reference.equal:
         used = ", ".join(against_reference.remarks)
-        return Verdict(1.0, "right", "**Right.**" + (f" The same chain as ours, with {used}." if used else ""))
+        said = f"The same chain as ours, with {used}." if used else ""
+        return Verdict(1.0, "right", " ".join(filter(None, ("**Right.**", said, against_reference.aside))))
     numbers = question.numbers(student)
     for node in question.mistakes:
         if any(_is_match(matches, (way,), node.turn) for way in node.ways):

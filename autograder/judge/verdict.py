@@ -20,6 +20,7 @@ from .kinds import compare as compare_answers
 from .kinds.entries import depends_on
 from .probing import judge_results
 from .question import Question, Way
+from .rounding import decimals_kept, rounded_too_far
 from .tree import Verdict, nearest, walk
 from .written import plain
 
@@ -124,6 +125,10 @@ def _judge_data(question: Question, decoded: Decoded, student: str, earlier: Map
     form, setting = question.form, question.setting(student)
     answer = read(form, decoded)
 
+    def beside_reference(given: object, asked: Setting) -> Comparison:
+        expected = expect_answer(question, (), student)
+        return nearest(compare_answers(form, given, other, asked) for other in expected.forms)
+
     def compare(ways: tuple[Way, ...], turn: float) -> Comparison:
         if ways and not np.size(answer):
             return Comparison(False, 0.0)  # no solution at all is what no mistake leaves of some
@@ -137,6 +142,8 @@ def _judge_data(question: Question, decoded: Decoded, student: str, earlier: Map
         against_reference = replace(against_reference, remarks=())
     if not against_reference.equal and _follows(question, answer, setting, student, earlier):
         return Verdict(1.0, "right_from_earlier", FORGIVEN)
+    if not against_reference.equal and (places := decimals_kept(form, answer, setting, beside_reference)) is not None:
+        return rounded_too_far(form, places)
     return walk(question, student, against_reference, lambda ways, turn: compare(ways, turn).equal)
 
 

@@ -79,7 +79,7 @@ def other_forms(question, answer):
             "twice": np.vstack([solutions, solutions]),
             "list of tuples": [tuple(row) for row in solutions],
             "sympy matrix": sympy.Matrix(solutions.tolist()) if len(solutions) else [],
-            "rounded": np.round(solutions, 4) if question.tolerance >= 1e-4 else solutions.tolist(),
+            "rounded": np.round(solutions, 4) if question.accuracy >= 1e-4 else solutions.tolist(),
             "by name": [keyed(form.joints, row) for row in solutions],
         }
     entry = entries(answer)
@@ -121,13 +121,13 @@ def perturbed(question, rng):
     answer, kind = right(question), question.form.kind
     if kind == "point_cloud":
         cloud = np.array(answer, dtype=float)
-        size, far = np.ptp(cloud, axis=0), 3 * question.tolerance
+        size, far = np.ptp(cloud, axis=0), 3 * question.accuracy
         chosen = rng.integers(3)
         if chosen == 0:  # a part is missing
             axis = rng.integers(cloud.shape[1])
             return cloud[cloud[:, axis] < np.quantile(cloud[:, axis], rng.uniform(0.3, 0.8))]
         if chosen == 1:
-            return cloud * (1 + max(0.1, 4 * question.tolerance / size.min()))
+            return cloud * (1 + max(0.1, 4 * question.accuracy / size.min()))
         return np.vstack([cloud, cloud[: len(cloud) // 10] + size + far])[-5000:]
     if kind == "joint_solutions":
         solutions = np.array(answer, dtype=float).reshape(-1, len(question.form.joints))

@@ -158,7 +158,7 @@ def test_perturbed_functions_are_refused(question):
         if results[place].size == 0:
             results[place] = np.full((1, len(question.returns.joints)), 0.3)
         elif question.returns.kind == "point_cloud":
-            results[place] = results[place] * 1.5 + 10 * question.tolerance
+            results[place] = results[place] * 1.5 + 10 * question.accuracy
         else:
             results[place].flat[rng.integers(results[place].size)] += rng.uniform(0.1, 1)
         family = isinstance(reference(*probes[place]), Family)

@@ -32,4 +32,4 @@ def test_no_top_of_the_class_makes_a_mistake_look_right():
     for own in product(*(np.arange(low, high + step / 2, step) for low, high, step in ranges)):
         right = question.reference(mine=OwnNumbers(zip(names, own)))
         wrong = rpy_matrix(*np.transpose([node.steps[0](right) for node in question.mistakes]))
-        assert rotation_angle_between(wrong, rpy_matrix(*right)).min() > 2 * question.tolerance, own
+        assert rotation_angle_between(wrong, rpy_matrix(*right)).min() > 2 * question.accuracy, own

@@ -13,6 +13,7 @@ A function is judged by what it returns, in the form of that.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from importlib import import_module
 from pkgutil import iter_modules
 from typing import Any
@@ -23,6 +24,8 @@ from dhkit.forms import Form
 from ..decode import Decoded, Malformed, decode
 from .base import Comparison, Kind, Setting
 from .entries import Entries
+
+PI_IS_EXACT = "Your decimals were read as multiples of `pi`: write `pi/2`, which is exact."
 
 __all__ = ["KINDS", "Comparison", "Entries", "Kind", "Setting", "compare", "read"]
 
@@ -48,5 +51,12 @@ def read(form: Form, answer: Decoded) -> Any:
 
 
 def compare(form: Form, student: Any, other: Any, setting: Setting) -> Comparison:
-    """A student's answer beside another one, both as `read` returns them."""
-    return KINDS[form.kind].compare(form, student, other, setting)
+    """A student's answer beside another one, both as `read` returns them; rounded constant angles are read as exact."""
+    found = KINDS[form.kind].compare(form, student, other, setting)
+    exact = student.meant() if isinstance(student, Entries) and not found.equal else None
+    if exact is None:
+        return found
+    again = KINDS[form.kind].compare(form, exact, other, setting)
+    if again.equal:
+        return replace(again, aside=PI_IS_EXACT)
+    return again if again.share >= found.share else found

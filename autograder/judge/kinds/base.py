@@ -16,7 +16,7 @@ class Comparison:
     """How two answers compare: equal or not, the share of parts that agree, and what differs, in words.
 
     `note` is the answer note of a difference that has a name of its own; `slip` says that all but one row, or one entry,
-    agree.
+    agree; `aside` is a sentence for somebody whose answer is right all the same.
     """
 
     equal: bool
@@ -24,6 +24,7 @@ class Comparison:
     remarks: tuple[str, ...] = ()
     note: str = ""
     slip: bool = False
+    aside: str = ""
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,8 @@ class Setting:
         The letters over the columns of a DHm table.
     family : bool
         Infinitely many solutions: every one that does not miss the target is right.
+    slack : float or array
+        By how much more each number of the student's answer may be off, in its shape: it was rounded.
     """
 
     samples: Mapping[str, np.ndarray] = field(default_factory=dict)
@@ -66,6 +69,7 @@ class Setting:
     position_share: float = 0.5
     columns: tuple[str, ...] = DH_COLUMNS
     family: bool = False
+    slack: np.ndarray | float = 0.0
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 from dhkit.forms import Form
 from dhkit.geometry import wrap
 
+from .. import angles
 from ..decode import Blank, Expression, Number, Value
 from ..evaluate import evaluate, evaluate_exactly, size
 from .base import Comparison, Setting
@@ -44,6 +45,7 @@ class Entries:
     expressions: tuple[Expression | Blank, ...] = ()
     known: np.ndarray | None = None
     _kept: dict = field(default_factory=dict, repr=False)
+    _meant: dict = field(default_factory=dict, repr=False)
 
     def values(self, samples: Mapping[str, np.ndarray]) -> np.ndarray:
         """Complex values at N points, (N, m), computed once; nan where nothing was filled in or nothing is defined."""
@@ -58,6 +60,13 @@ class Entries:
             return np.stack(columns, axis=1).astype(complex)
 
         return self.once("values", samples, evaluated)
+
+    def meant(self, decimals: int = angles.ENOUGH) -> Entries | None:
+        """The same with rounded constant angles read as exact (see `judge.angles`); None where nothing changes."""
+        if decimals not in self._meant:
+            exact = tuple(e if isinstance(e, Blank) else angles.meant(e, decimals) for e in self.expressions)
+            self._meant[decimals] = None if exact == self.expressions else Entries(exact)
+        return self._meant[decimals]
 
     def once(self, what: str, samples: Mapping[str, np.ndarray], make: Callable[[], T]) -> T:
         """What `make` returns; made once for the same sample points, as one answer is compared with many."""
@@ -97,13 +106,13 @@ def depends_on(entries: Entries, samples: Mapping[str, np.ndarray]) -> set[str]:
     return {name for name in samples if acts(name)}
 
 
-def agreement(student: Entries, other: Entries, setting: Setting, angles: Sequence[bool] | np.ndarray) -> np.ndarray:
-    """Which of m entries agree at every sample point, (m,) booleans; where `angles` says so, modulo 2 pi."""
+def agreement(student: Entries, other: Entries, setting: Setting, turning: Sequence[bool] | np.ndarray) -> np.ndarray:
+    """Which of m entries agree at every sample point, (m,) booleans; where `turning` says so, modulo 2 pi."""
     theirs, ours = student.values(setting.samples), other.values(setting.samples)
-    angles = np.asarray(angles, bool)
+    turning = np.asarray(turning, bool)
     with np.errstate(all="ignore"):
-        error = np.abs(difference(theirs, ours, angles)) / np.maximum(1, np.abs(ours))
-    agree = (error <= setting.tolerance).all(axis=0)
+        error = np.abs(difference(theirs, ours, turning)) / np.maximum(1, np.abs(ours))
+    agree = (error <= setting.tolerance + setting.slack).all(axis=0)
     # Cancellation in float64 may spoil a right answer; forty digits decide where the values are close, or the reader patient.
     doubtful = ~agree & ((error < 1e-3).all(axis=0) | setting.patient)
     if student.expressions and other.expressions:
@@ -115,7 +124,7 @@ def agreement(student: Entries, other: Entries, setting: Setting, angles: Sequen
             left -= size(theirs_exactly)
             if left < 0:
                 break
-            agree[i] = _agree_exactly(theirs_exactly, ours_exactly, setting, angles[i])
+            agree[i] = _agree_exactly(theirs_exactly, ours_exactly, setting, turning[i])
     return agree
 
 

@@ -26,10 +26,11 @@ def compare(form: JointSolutions, student: np.ndarray, other: np.ndarray, settin
 
     Of a family of infinitely many, any valid representatives are accepted.
     """
-    mine, theirs = (_distinct(solutions, setting) for solutions in (student, other))
+    kept = _distinct(student, setting)
+    mine, theirs = student[kept], other[_distinct(other, setting)]
     if setting.family and setting.residual is not None:
         return _of_a_family(mine, setting.residual, setting)
-    same = _close(theirs, mine, setting)
+    same = _close(theirs, mine, setting, np.broadcast_to(setting.slack, student.shape)[kept])
     missing, extra = int((~same.any(axis=1)).sum()), np.asarray(~same.any(axis=0))
     remarks = []
     if missing:
@@ -63,17 +64,21 @@ def _of_a_family(mine: np.ndarray, residual: Callable[[np.ndarray], np.ndarray],
     return Comparison(False, float((~wrong).mean()), (_wrong(mine, wrong, setting),))
 
 
-def _close(a: np.ndarray, b: np.ndarray, setting: Setting) -> np.ndarray:
-    """Which of the (m, n) solutions `a` are the same as which of the (k, n) solutions `b`: an (m, k) array."""
+def _close(a: np.ndarray, b: np.ndarray, setting: Setting, slack: np.ndarray | float = 0.0) -> np.ndarray:
+    """Which of the (m, n) solutions `a` are the same as which of the (k, n) solutions `b`: an (m, k) array.
+
+    `slack` is by how much more each number of `b` may be off.
+    """
     gap = np.abs(a[:, None] - b[None])
     angles = list(setting.angles)
     gap[..., angles] = np.abs(wrap(gap[..., angles] * (2 * np.pi / setting.turn)))
-    return (gap <= setting.tolerance).all(axis=-1)
+    return (gap <= setting.tolerance + slack).all(axis=-1)
 
 
-def _distinct(solutions: np.ndarray, setting: Setting) -> np.ndarray:
+def _distinct(solutions: np.ndarray, setting: Setting) -> list[int]:
+    """Which of the solutions stand for all of them, each once."""
     kept: list[int] = []
     for i, same in enumerate(_close(solutions, solutions, setting)):
         if not same[kept].any():
             kept.append(i)
-    return solutions[kept]
+    return kept

@@ -28,7 +28,7 @@ def compare(form: Orientation, student: Entries, other: Entries, setting: Settin
         euler_matrix(values.real * unit, form.axes, intrinsic=form.frames != "fixed") for values in (theirs, ours)
     ]
     error = float(np.max(rotation_angle_between(*rotations)))
-    if error <= max(setting.tolerance, 1e-7):
+    if error <= max(setting.tolerance, 1e-7) + np.sum(setting.slack):
         return Comparison(True, 1.0)
     where = " at the values tried" if form.symbols else ""
     return Comparison(False, 0.0, (f"the rotation is off by up to {np.degrees(error):.3g} deg{where}",))

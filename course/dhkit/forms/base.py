@@ -52,10 +52,13 @@ class Form:
         The awaited form in words, used in messages.
     units : str
         Units, for the reader.
+    decimals : int or None
+        Decimals that numbers are asked for; None for expressions and whole numbers.
     """
 
     expected: str
     units: str
+    decimals: int | None
 
     @property
     def kind(self) -> str:
@@ -113,10 +116,11 @@ class Form:
 
 
 class Fields(Form, msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A form made of the fields that a question's table gives: these two, and those of the kind."""
+    """A form made of the fields that a question's table gives: these, and those of the kind."""
 
     expected: Text
     units: str = ""
+    decimals: Annotated[int, Meta(ge=1, le=6)] | None = None
 
 
 class Symbolic(Fields, frozen=True, kw_only=True):
@@ -132,6 +136,8 @@ class Symbolic(Fields, frozen=True, kw_only=True):
 
     def __post_init__(self) -> None:
         unique("symbols", self.symbols)
+        if self.symbols and self.decimals is not None:
+            raise ValueError("decimals: expressions in symbols have none")
 
     def misfit(self, node: object) -> str | None:
         if nodes.array_shape(node) != self.shape:
