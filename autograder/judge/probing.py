@@ -10,9 +10,10 @@ import numpy as np
 
 from .decode import Decoded, Failure, Malformed
 from .expected import expect_result, read_result
-from .kinds import Comparison
+from .kinds import Comparison, Setting
 from .kinds import compare as compare_answers
 from .question import Question, Way
+from .rounding import decimals_kept, rounded_too_far
 from .tree import Verdict, nearest, walk
 from .written import plain, written
 
@@ -50,6 +51,11 @@ def judge_results(question: Question, arguments: list[list], results: Sequence[D
         for case, asked in cases.items()
         if case not in wrong
     ]
+    kept = [
+        _decimals_kept(question, student, call) for asked in cases.values() for call in asked if not call.compared.equal
+    ]
+    if kept and (fewest := min(kept)) > 0:
+        return rounded_too_far(form, fewest)
     remarks = tuple(_describe(case, call) for case, call in wrong.items())
     verdict = walk(
         question,
@@ -89,6 +95,20 @@ def compare_result(
         return compare_answers(question.returns, result, other, setting)
 
     return nearest(beside(other) for other in expected.forms)
+
+
+def _decimals_kept(question: Question, student: str, call: Call) -> int:
+    """To how many decimals a result is right that is not right as it is; 0 if to none."""
+    expected = expect_result(question, (), student, call.args)
+    others = [other for other in expected.forms if not isinstance(other, Malformed)]
+    if isinstance(call.result, Malformed) or not others:
+        return 0
+    setting = replace(question.setting(student, *call.args), family=expected.family)
+
+    def beside(given: object, asked: Setting) -> Comparison:
+        return nearest(compare_answers(question.returns, given, other, asked) for other in others)
+
+    return decimals_kept(question.returns, call.result, setting, beside) or 0
 
 
 def _count(answers: list[set[str]]) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -43,9 +43,12 @@ def decimals_kept(
     if form.decimals is None or values is None:
         return None
     for places in range(form.decimals - 1, 0, -1):
-        slack = _slack(values, range(form.decimals - 1, places - 1, -1))
-        if slack.any() and compare(answer, replace(setting, slack=slack)).equal:
-            return places
+        rounded = values == values.round(places)
+        # With one decimal much comes near: then all of the answer must look like it.
+        if (rounded.any() if places > 1 else rounded.all()) and values.size:
+            slack = np.where(rounded, 0.5001 * 10.0**-places, 0.0)
+            if compare(answer, replace(setting, slack=slack)).equal:
+                return places
     return None
 
 
@@ -62,12 +65,3 @@ def _values(answer: object, setting: Setting) -> np.ndarray | None:
     if isinstance(answer, Entries):
         return answer.values(setting.samples)[0].real if not setting.samples else None
     return answer if isinstance(answer, np.ndarray) else None
-
-
-def _slack(values: np.ndarray, places: Iterable[int]) -> np.ndarray:
-    """By how much each number may be off that has only so many decimals, or fewer; nothing for whole numbers."""
-    slack = np.zeros(values.shape)
-    for one in places:
-        slack[values == values.round(one)] = 0.5001 * 10.0**-one
-    slack[values == values.round()] = 0
-    return slack

@@ -11,6 +11,8 @@ import json
 from collections.abc import Callable
 
 from . import public, variants, wire
+from .forms import Form
+from .forms.function import Function
 from .home.progress import latest, note
 from .home.verdict import Verdict, judge_at_home
 from .nodes import blanks
@@ -114,10 +116,15 @@ def _notice(question: public.PublicQuestion, node: object, function: Callable | 
         return Notice(question.title, "not attempted yet", ())
     if found.state == "right":
         return Notice(question.title, "right", (Line(True, f'how it goes: solution("{question.id}")'),))
-    lines = [Line(None, f"the form is right: {question.form.expected}"), *lines]
+    lines = [Line(None, f"the form is right: {question.form.expected}{_precision(question.form)}"), *lines]
     if found.state == "undecided":
         missed = sum(line.holds is False for line in lines)
         status = "handed in" if not missed else f"handed in, but {missed} of {len(lines)} checks fail"
         return Notice(question.title, status, (*lines, Line(None, found.text)))
     said = found.text if found.state == "mistake" else f"{found.text[0].upper()}{found.text[1:]}."
     return Notice(question.title, "not right yet", (*lines, Line(False, said)))
+
+
+def _precision(form: Form) -> str:
+    decimals = form.returns.decimals if isinstance(form, Function) else form.decimals
+    return f", to {decimals} decimals" if decimals else ""

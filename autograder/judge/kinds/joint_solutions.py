@@ -28,9 +28,10 @@ def compare(form: JointSolutions, student: np.ndarray, other: np.ndarray, settin
     """
     kept = _distinct(student, setting)
     mine, theirs = student[kept], other[_distinct(other, setting)]
+    slack = np.broadcast_to(setting.slack, student.shape)[kept]
     if setting.family and setting.residual is not None:
-        return _of_a_family(mine, setting.residual, setting)
-    same = _close(theirs, mine, setting, np.broadcast_to(setting.slack, student.shape)[kept])
+        return _of_a_family(mine, setting.residual, setting, slack)
+    same = _close(theirs, mine, setting, slack)
     missing, extra = int((~same.any(axis=1)).sum()), np.asarray(~same.any(axis=0))
     remarks = []
     if missing:
@@ -55,10 +56,12 @@ def _wrong(mine: np.ndarray, extra: np.ndarray, setting: Setting) -> str:
     )
 
 
-def _of_a_family(mine: np.ndarray, residual: Callable[[np.ndarray], np.ndarray], setting: Setting) -> Comparison:
+def _of_a_family(
+    mine: np.ndarray, residual: Callable[[np.ndarray], np.ndarray], setting: Setting, slack: np.ndarray
+) -> Comparison:
     if not len(mine):
         return Comparison(False, 0.0, ("there are solutions here, the answer gives none",))
-    wrong = residual(mine) > 10 * setting.tolerance
+    wrong = residual(mine) > 10 * setting.tolerance + slack.sum(axis=1)
     if not wrong.any():
         return Comparison(True, 1.0)
     return Comparison(False, float((~wrong).mean()), (_wrong(mine, wrong, setting),))

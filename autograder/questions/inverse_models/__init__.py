@@ -74,7 +74,6 @@ QUESTIONS = (
             degrees(0, 1, 2),
         ),
         angles=(0, 1, 2),
-        tolerance=1e-3,
         residual=elbow_residual,
     ),
     Question(
@@ -210,7 +209,6 @@ QUESTIONS = (
             degrees(0, 1, 2),
         ),
         angles=(0, 1, 2),
-        tolerance=1e-3,
         residual=kr210_residual,
     ),
     Question(
@@ -303,7 +301,6 @@ QUESTIONS = (
         ),
         partial=0.4,
         angles=(0, 1, 2, 3, 4, 5),
-        tolerance=1e-4,
         probe=draw_poses,
         case=name_case,
         residual=rx90_residual,
@@ -327,7 +324,6 @@ QUESTIONS = (
             degrees(wrong={"unit": 180 / np.pi}),
         ),
         angles=(0, 1, 2),
-        tolerance=1e-3,
         residual=aligned_residual,
     ),
     Question(

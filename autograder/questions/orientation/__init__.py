@@ -181,7 +181,6 @@ QUESTIONS = (
             degrees(0, 1, 2),
         ),
         angles=(0, 1, 2),
-        tolerance=1e-3,
         residual=rpy_residual,
     ),
     Question(
@@ -213,7 +212,6 @@ QUESTIONS = (
             ),
             degrees(0, 1, 2),
         ),
-        tolerance=1e-3,
     ),
     Question(
         "orientation.printed",
@@ -331,7 +329,6 @@ QUESTIONS = (
             degrees(0, 1, 2),
         ),
         angles=(0, 1, 2),
-        tolerance=1e-4,
         probe=draw_rotations,
         case=name_bend,
         residual=zyz_residual,

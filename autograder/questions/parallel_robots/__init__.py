@@ -164,7 +164,6 @@ QUESTIONS = (
         ),
         partial=0.6,
         angles=(2,),
-        tolerance=1e-3,
         residual=mode_residual,
     ),
     Question(
@@ -224,7 +223,6 @@ QUESTIONS = (
                 *(lambda _, upright=a[0] - b[0]: upright for a, b in zip(BASE, PLATFORM)),
             ),
         ),
-        tolerance=1e-3,
     ),
     Question(
         "parallel_robots.postures",
@@ -252,7 +250,6 @@ QUESTIONS = (
             degrees(*range(6)),
         ),
         angles=tuple(range(6)),
-        tolerance=1e-3,
         residual=posture_residual,
     ),
     Question(

@@ -80,7 +80,6 @@ QUESTIONS = (
             degrees(1, 3, share=0.5),
         ),
         angles=(1, 3),
-        tolerance=1e-3,
     ),
     Question(
         "parameters.origin",
@@ -114,7 +113,6 @@ QUESTIONS = (
             ),
         ),
         partial=0.3,
-        tolerance=1e-3,
     ),
     Question(
         "parameters.x_axis",
@@ -142,7 +140,6 @@ QUESTIONS = (
             ),
         ),
         partial=0.0,
-        tolerance=1e-3,
     ),
     Question(
         "parameters.parallel",
@@ -175,7 +172,6 @@ QUESTIONS = (
                 wrong={"height": "above joint 1"},
             ),
         ),
-        tolerance=1e-3,
     ),
     Question(
         "parameters.frame",
@@ -197,7 +193,6 @@ QUESTIONS = (
             LEFT_HANDED,
             transposed_rotation(),
         ),
-        tolerance=1e-3,
     ),
     Question(
         "parameters.flip",
@@ -257,7 +252,6 @@ QUESTIONS = (
             ),
         ),
         position_share=0.0,
-        tolerance=1e-3,
     ),
     Question(
         "parameters.link",
@@ -300,6 +294,5 @@ QUESTIONS = (
         probe=draw_axes,
         case=name_axes,
         angles=(1,),
-        tolerance=1e-6,
     ),
 )

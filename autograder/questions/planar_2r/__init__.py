@@ -199,7 +199,6 @@ QUESTIONS = (
             degrees(0, 1),
         ),
         angles=(0, 1),
-        tolerance=1e-3,
         residual=residual,
     ),
     Question(
@@ -240,7 +239,6 @@ QUESTIONS = (
             ),
         ),
         angles=(0, 1),
-        tolerance=1e-4,
         probe=draw_targets,
         case=name_case,
         residual=residual,

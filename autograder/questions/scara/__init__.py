@@ -184,7 +184,6 @@ QUESTIONS = (
             degrees(0, 1, 3),
         ),
         angles=(0, 1, 3),
-        tolerance=1e-3,
         residual=residual,
     ),
 )

@@ -197,7 +197,6 @@ QUESTIONS = (
             degrees(0, 1, 3),
         ),
         angles=(0, 1, 3),
-        tolerance=1e-4,
         probe=draw_poses,
         case=name_case,
         residual=residual,
@@ -219,7 +218,6 @@ QUESTIONS = (
             degrees(0, 1, 3),
         ),
         angles=(0, 1),
-        tolerance=1e-3,
         residual=residual,
     ),
     Question(

@@ -306,6 +306,5 @@ QUESTIONS = (
                 ],
             ),
         ),
-        tolerance=1e-4,
     ),
 )

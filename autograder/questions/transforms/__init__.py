@@ -85,7 +85,6 @@ QUESTIONS = (
                 "turned by {phi} degrees.",
             ),
         ),
-        tolerance=1e-3,
     ),
     Question(
         "transforms.commute",

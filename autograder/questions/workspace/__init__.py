@@ -197,7 +197,6 @@ QUESTIONS = (
                 wrong={"sheet": "product"},
             ),
         ),
-        tolerance=5e-4,
     ),
     Question(
         "workspace.full_turn",
@@ -223,7 +222,6 @@ QUESTIONS = (
                 wrong={"how": "no stops"},
             ),
         ),
-        tolerance=5e-4,
     ),
     Question(
         "workspace.count",
