@@ -189,7 +189,7 @@ def _sight(question: Question) -> Sight:
     count = len(next(iter(samples.values()), [0]))
     points = tuple({name: values[i] for name, values in samples.items()} for i in range(count))
     pins = tuple(name for name, freedom in _PINS.items() if freedom in question.pinned)
-    return Sight(points=points, angles=question.angles, tolerance=question.tolerance, pins=pins)
+    return Sight(points=points, angles=question.angles, tolerance=question.accuracy, pins=pins)
 
 
 def _decide(question: Question, sight: Sight, rights: Sequence[Look | None]) -> Decision:
