@@ -45,7 +45,14 @@ def explore(draw, **sliders: tuple[float, float, float]) -> None:
     for control in controls.values():
         control.observe(redraw, names="value")
     box = ipywidgets.VBox([*controls.values(), picture])
-    display({**box._repr_mimebundle_(), "image/png": base64.b64encode(static).decode()}, raw=True)
+    # Written out, as ipywidgets 7, which Google Colab has, would not let the picture come along.
+    view = {"version_major": 2, "version_minor": 0, "model_id": box.model_id}
+    bundle = {
+        "text/plain": f"sliders: {', '.join(sliders)}",
+        "application/vnd.jupyter.widget-view+json": view,
+        "image/png": base64.b64encode(static).decode(),
+    }
+    display(bundle, raw=True)
 
 
 def _png(draw, values: dict[str, float]) -> bytes:
