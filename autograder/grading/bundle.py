@@ -29,8 +29,12 @@ You need Python 3.11 or newer. In this folder:
 
 * `course/` holds the lecture notebooks, in the order of the slides.
 * `exercises/` holds one folder per exercise. Fill in the answer cells, run everything from top to bottom, and
-  hand in the notebook under its own name. `check(...)` tells you whether your answer has the right form and
-  `hint(...)` helps you on; the points are given later, by the instructor.
+  hand in the notebook under its own name. `hint(...)` helps you on.
+* `check(...)` says at once where an answer is right, or which mistake it shows; `solution(...)` unfolds once yours is
+  right, `progress()` counts, `practice("scara.postures")` gives other numbers to try with. The right answers are in no
+  file: yours opens a verdict that was sealed for it. Some answers would be found by trying; these the grader decides.
+  The points are given by the instructor.
+* In Google Colab, upload `<exercise>.sealed` beside the notebook, and install the kit: `%pip install ./course`.
 """
 
 
