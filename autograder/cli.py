@@ -9,7 +9,7 @@ import signal
 import sys
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import Field, fields
 from io import TextIOWrapper
 from typing import Any
@@ -316,7 +316,9 @@ def _release(options) -> int:
         if not options.yes and not _agreed(exercise, changes_ahead(course, exercise)):
             print(f"{exercise} was not released; everything is as it was")
             continue
-        with progress_bar(f"sealing {exercise}", len(of_exercise(exercise))) as told:
+        to_seal = len(of_exercise(exercise)) if options.home == "sealed" else 0
+        bar = progress_bar(f"sealing {exercise}", to_seal) if to_seal else nullcontext(lambda question: None)
+        with bar as told:
             released = release(course, exercise, options.home, options.anew, told)
         changes = released.changes
         if options.table and released.decisions:
