@@ -8,6 +8,7 @@ import os
 import signal
 import sys
 import threading
+import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
 from dataclasses import Field, fields
@@ -111,6 +112,11 @@ def main(argv: list[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
     except Exception as error:
+        if not options.verbose and (module := _broken_module(error)):
+            reason = f"{type(error).__name__}: {error}"
+            cure = "make setup installs what grading needs; with --verbose it is shown where this happened"
+            print(f"autograder: {module} cannot be imported ({reason}); {cure}", file=sys.stderr)
+            return 2
         from autograder.grading.errors import CourseError, in_words
         from autograder.grading.gradebook import GradebookError
 
@@ -118,6 +124,13 @@ def main(argv: list[str] | None = None) -> int:
             raise
         print(f"autograder: {in_words(error)}", file=sys.stderr)
         return 1 if isinstance(error, GradebookError | OSError) else 2
+
+
+def _broken_module(error: Exception) -> str | None:
+    """The module that failed while it was imported, if that is what happened: it was on its outermost level."""
+    frames = (frame for frame, _ in traceback.walk_tb(error.__traceback__))
+    names = [frame.f_globals["__name__"] for frame in frames if frame.f_code.co_name == "<module>"]
+    return names[-1] if names else None
 
 
 def _parser() -> argparse.ArgumentParser:

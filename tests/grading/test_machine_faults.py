@@ -13,9 +13,11 @@ import pytest
 
 from autograder import cli, sandbox
 from autograder.grading import pipeline
+from autograder.grading.plugins.preprocessors import SandboxExecute
 from autograder.grading.submission import trial
 from autograder.grading.submission.execution import Execution, MachineFault, confirm
-from autograder.sandbox import bubblewrap
+from autograder.sandbox import bubblewrap, clock, watch
+from autograder.sandbox.clock import Observation
 
 pytestmark = pytest.mark.sandbox
 
@@ -275,3 +277,76 @@ def test_busy_shells_cost_an_honest_neighbour_nothing(graded, small, course_copy
     code, results, _ = graded("--cell-seconds", "4", "--notebook-seconds", "12", jobs=2)
     assert code == 0 and results["ann"]["score"] == 20
     assert results["eve"]["score"] == 0
+
+
+class Processor:
+    """Taken away once the trial is over: no time that goes by is a notebook's own, and there is little on the wall."""
+
+    def __init__(self, patch):
+        self.patch = patch
+        find_fault_once = trial.find_fault_once
+
+        def then_take(*settings):
+            fault = find_fault_once(*settings)
+            self.take()
+            return fault
+
+        patch.setattr(trial, "find_fault_once", then_take)
+
+    def take(self):
+        self.patch.setattr(watch, "observe", lambda members, outer: Observation(0.0, True))
+        self.patch.setattr(clock, "LOAD_FACTOR", 0.2)
+
+    def give_back(self):
+        self.patch.undo()
+
+
+@pytest.fixture
+def processor():
+    with pytest.MonkeyPatch.context() as patch:
+        yield Processor(patch)
+
+
+@pytest.fixture
+def honest(small, course_copy, released):
+    """Scores of two honest notebooks that need a few seconds."""
+    for student, d2_sign in (("ann", "B"), ("ben", "A")):
+        source = f"import time; time.sleep(4); d2_sign = {d2_sign!r}"
+        small.hand_in(course_copy, student, small.answered(released, d2_sign=source))
+    return {"ann": 20, "ben": 16}
+
+
+def scores(results):
+    return {student: result["score"] for student, result in results.items()}
+
+
+@pytest.mark.slow
+def test_whose_processor_is_taken_away_runs_again_alone(graded, honest, processor, monkeypatch):
+    run, run_alone, runs = SandboxExecute.run, SandboxExecute.run_alone, []
+
+    def noted(self, nb, folder, released, student, course):
+        execution = run(self, nb, folder, released, student, course)
+        runs.append((student, execution.starved))
+        return execution
+
+    def given_back(self, *whose):
+        processor.give_back()
+        return run_alone(self, *whose)
+
+    monkeypatch.setattr(SandboxExecute, "run", noted)
+    monkeypatch.setattr(SandboxExecute, "run_alone", given_back)
+    code, results, _ = graded("--notebook-seconds", "20")
+    assert code == 0 and scores(results) == honest
+    assert sorted(runs[:2]) == [("ann", True), ("ben", True)] and sorted(runs[2:]) == [("ann", False), ("ben", False)]
+
+
+@pytest.mark.slow
+def test_who_has_no_processor_when_alone_either_is_not_graded(graded, honest, processor, course_copy):
+    code, results, _ = graded("--notebook-seconds", "20")
+    assert code == 1 and scores(results) == dict.fromkeys(honest)
+    assert {result["status"] for result in results.values()} == {"failed"}
+    assert all("grade again when the machine is less busy" in result["found"] for result in results.values())
+    assert not (course_copy / "autograded").exists()
+    processor.give_back()
+    code, results, _ = graded("--notebook-seconds", "20")
+    assert code == 0 and scores(results) == honest

@@ -74,6 +74,16 @@ def test_grading_waits_until_the_other_program_is_done(course, faults, right, ca
     assert capsys.readouterr().err.count("waiting: ") == 1
 
 
+def refused(name, words):
+    """Let SQLite say this of the gradebook from now on, in this process."""
+
+    @sqlalchemy.event.listens_for(sqlalchemy.Engine, "before_cursor_execute")
+    def refuse(connection, cursor, statement, *more):
+        error = sqlite3.OperationalError(words)
+        error.sqlite_errorname = name
+        raise OperationalError(statement, {}, error)
+
+
 WITHOUT_LOCKS = {
     # As sqliteErrorFromPosixError of SQLite's os_unix.c translates them.
     errno.ENOLCK: ("SQLITE_BUSY", "database is locked"),
@@ -83,21 +93,13 @@ WITHOUT_LOCKS = {
 
 @pytest.mark.parametrize("number", WITHOUT_LOCKS, ids=errno.errorcode.get)
 def test_a_file_system_without_locks_is_said_at_once(course, faults, right, number, monkeypatch, capfd):
-    name, words = WITHOUT_LOCKS[number]
-
-    def refuse(*lock):
+    def no_locks(*lock):
         raise OSError(number, os.strerror(number))
 
     def action():
-        monkeypatch.setattr(gradebook.fcntl, "lockf", refuse)
+        monkeypatch.setattr(gradebook.fcntl, "lockf", no_locks)
         monkeypatch.setattr(gradebook.time, "sleep", lambda seconds: pytest.fail("there is nothing to wait for"))
-
-        @sqlalchemy.event.listens_for(sqlalchemy.Engine, "before_cursor_execute")
-        def lock(connection, cursor, statement, *more):
-            error = sqlite3.OperationalError(words)
-            error.sqlite_errorname = name
-            raise OperationalError(statement, {}, error)
-
+        refused(*WITHOUT_LOCKS[number])
         return faults.grade(course)
 
     assert faults.run(action) == 1
@@ -106,6 +108,28 @@ def test_a_file_system_without_locks_is_said_at_once(course, faults, right, numb
         f"{course / 'gradebook.db'} cannot be used" in said and "has no locks; move the course to another disk" in said
     )
     assert "waiting: " not in said and "Traceback" not in said
+    assert faults.grade(course) == 0 and unchanged(faults, course, right)
+
+
+REFUSALS = {
+    "SQLITE_READONLY": ("attempt to write a readonly database", "can only be read; give yourself the right"),
+    "SQLITE_CANTOPEN": ("unable to open database file", "cannot be opened"),
+    "SQLITE_IOERR_READ": ("disk I/O error", "its file system has no space or a fault"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSALS)
+def test_a_gradebook_that_the_system_refuses_is_said(course, faults, right, name, capfd):
+    words, sentence = REFUSALS[name]
+
+    def action():
+        refused(name, words)
+        return faults.grade(course)
+
+    assert faults.run(action) == 1
+    said = capfd.readouterr().err
+    assert f"{course / 'gradebook.db'} can" in said and sentence in said
+    assert "Traceback" not in said
     assert faults.grade(course) == 0 and unchanged(faults, course, right)
 
 

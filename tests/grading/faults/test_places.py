@@ -129,6 +129,18 @@ def test_names_that_the_terminal_cannot_show_do_not_end_the_command(course, smal
     assert b"Zo? ?" in done.stdout
 
 
+@pytest.mark.parametrize("package", ["dhkit", "sqlalchemy"])
+def test_what_cannot_be_imported_is_said(course, package, tmp_path):
+    (tmp_path / f"{package}.py").write_text("raise RuntimeError('half installed')")
+    command = [sys.executable, "-m", "autograder.cli", "grade", "scara", "--course", str(course)]
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    assert done.returncode == 2 and "Traceback" not in done.stderr
+    assert f"{package} cannot be imported (RuntimeError: half installed); make setup" in done.stderr
+    done = subprocess.run([*command, "--verbose"], env=environment, capture_output=True, text=True)
+    assert "Traceback" in done.stderr
+
+
 def test_a_current_folder_that_is_gone_is_said(course, faults, right, tmp_path, capsys):
     gone = tmp_path / "gone"
 
