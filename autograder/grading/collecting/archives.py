@@ -11,7 +11,7 @@ import re
 import stat
 import struct
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
@@ -35,6 +35,10 @@ MAX_DIRECTORY = 8 << 20
 MAX_RATIO = 100
 """Of what comes out of an archive to its own size; `MAX_FILE` may always come out."""
 
+EMPTY = "an empty folder"
+"""Stands for the files of a folder without any."""
+
+_EARLIEST = datetime(1980, 1, 1)
 _IN_MEMORY = 16 << 20
 _HEAD = 512
 _LEFT_OUT = {"__MACOSX", "__pycache__", "node_modules", "Thumbs.db", "desktop.ini"}
@@ -78,6 +82,11 @@ class Packed:
     def name(self) -> str:
         return self.path[-1]
 
+    def level(self, number: int) -> tuple[str, ...]:
+        """The parts of the path inside the archive of this level, 0 for the download itself; empty if it lies higher."""
+        ends = (*self.starts[1:], len(self.path))
+        return self.path[self.starts[number] : ends[number]] if number < len(self.starts) else ()
+
     def written(self, part: int) -> datetime:
         """When the archive's entry was written to which this part of the path belongs."""
         return [time for start, time in zip(self.starts, self.times, strict=True) if start <= part][-1]
@@ -96,7 +105,7 @@ class _Place:
         return _Place((*self.path, *parts), (*self.starts, len(self.path)), (*self.times, time))
 
     def packed(self, content: bytes | None = None, trouble: str | None = None) -> Packed:
-        return Packed(self.path, self.starts, self.times, content, trouble)
+        return Packed(self.path, self.starts or (0,), self.times or (_EARLIEST,), content, trouble)
 
 
 class _Refused(ValueError):
@@ -135,7 +144,7 @@ def unpack(download: Path) -> Iterator[Packed]:
         is_zip = _is_zip(file.read(_HEAD))
         file.seek(0)
         if is_zip:
-            yield from _zip(file, size, _Place((download.name,), (0,), (_written(download.stat()),)), None, 0)
+            yield from _zip(file, size, _Place((download.name,)), None, 0)
         else:
             yield from _file(file, _Place((download.name,), (0,), (_written(download.stat()),)), _budget(size), 0)
 
@@ -179,6 +188,9 @@ def _zip(file: IO[bytes], size: int, place: _Place, budget: _Budget | None, dept
         yield place.packed(trouble=_in_words(error))
         return
     looked_at = False
+    if budget is None:
+        for folder, time in _empty_folders(entries):
+            yield place.inside((*folder, EMPTY), time).packed()
     for entry in entries:
         inside = _parts(entry)
         if not inside or entry.is_dir():
@@ -287,6 +299,15 @@ def _parts(entry: ZipInfo) -> tuple[str, ...]:
     return tuple(part for part in re.split(r"[/\\]", normalize("NFC", name)) if part not in ("", ".", ".."))
 
 
+def _empty_folders(entries: Sequence[ZipInfo]) -> Iterator[tuple[tuple[str, ...], datetime]]:
+    full = {
+        parts[:end] for entry in entries if not entry.is_dir() for parts in [_parts(entry)] for end in range(len(parts))
+    }
+    for entry in entries:
+        if entry.is_dir() and (parts := _parts(entry)) and parts not in full:
+            yield parts, _time(entry)
+
+
 def is_left_out(parts: tuple[str, ...]) -> bool:
     """True for what systems and tools put beside people's files."""
     return any(part.startswith(".") or part in _LEFT_OUT for part in parts)
@@ -296,7 +317,7 @@ def _time(entry: ZipInfo) -> datetime:
     try:
         return datetime(*entry.date_time)
     except ValueError:
-        return datetime(1980, 1, 1)
+        return _EARLIEST
 
 
 def _in_words(error: Exception) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
@@ -13,6 +12,8 @@ from tempfile import TemporaryDirectory
 import msgspec
 import nbformat
 
+from dhkit.variants import normal_form
+
 from ..course import Course
 from ..errors import CourseError
 from ..files import digest, digest_of, write_whole
@@ -21,14 +22,17 @@ from ..inert import terminal_text
 from ..roster import Person, Roster, read_roster
 from ..term import read_term
 from ..worksheets import people_of_numbers
-from .archives import Packed, is_left_out, unpack
-from .platforms import Sender, attempt, sender, upload
+from .archives import EMPTY, Packed, is_left_out, unpack
+from .platforms import Sender, attempt, sender
 from .receipts import Receipt, read_receipts, receipts_folder, write_receipts
 from .recognise import Found, Released, recognise
 
 # A download that was written within this time tells when it was written, not when its files were handed in.
 _ONE_DOWNLOAD = timedelta(hours=1)
 _NAMES_SHOWN = 4
+# In bytes: a folder's name has 255 at most, and the gradebook's ids 128 letters.
+_LONGEST_ID = 100
+_Key = tuple[str, str, str]
 _NOT_NAMES = {"exercises", "submitted", "submissions", "course", "solutions", "src"}
 
 
@@ -73,7 +77,7 @@ class _Piece:
     def rank(self) -> tuple:
         """A notebook that nobody touched is never better than one with answers, however new it is."""
         answered = self.found.answered if self.found else 0
-        return _rank(self.moment, attempt(self.packed.path), upload(self.packed.path), answered)
+        return _rank(self.moment, attempt(self.packed.name), self.sender.upload, answered)
 
     @property
     def newest_last(self) -> tuple:
@@ -118,7 +122,7 @@ def collect(
     with TemporaryDirectory() as kept:
         pieces = [piece for path in downloads for piece in _pieces(path, released, roster, Path(kept))]
         strays = [piece for piece in pieces if not piece.sender.key[1] and not piece.sender.name]
-        groups: dict[tuple[str, str, str], list[_Piece]] = {}
+        groups: dict[_Key, list[_Piece]] = {}
         for piece in pieces:
             if piece not in strays:
                 groups.setdefault(piece.sender.key, []).append(piece)
@@ -129,6 +133,12 @@ def collect(
         rows = []
         for student, (keys, remarks) in owners.items():
             mine = [piece for key in keys for piece in groups[key]]
+            for other in [name for name, one in receipts.items() if name != student and _is_of(one, keys)]:
+                del receipts[other]
+                remarks = (
+                    *remarks,
+                    f"was collected as {other} before; what is in submitted/{other} is the same person's",
+                )
             row, receipt = _settle(course, exercise, student, mine, receipts.get(student), force)
             receipts[student] = receipt
             rows.append(replace(row, remarks=(*row.remarks, *remarks)))
@@ -142,6 +152,11 @@ def collect(
     return sorted(rows, key=lambda row: (row.student.casefold(), row.student, row.file))
 
 
+def _is_of(receipt: Receipt, keys: Sequence[_Key]) -> bool:
+    """Whether it is for one of the platform's persons by these keys."""
+    return bool(receipt.number) and any((receipt.platform, receipt.number) == key[:2] for key in keys)
+
+
 def _released(course: Course) -> list[Released]:
     found = []
     for exercise in course.exercises():
@@ -153,78 +168,91 @@ def _released(course: Course) -> list[Released]:
 
 def _pieces(download: Path, released: Sequence[Released], roster: Roster, kept: Path) -> list[_Piece]:
     """The files of one download, each with its sender."""
-    found: list[_Piece] = []
-    senders = 0
+    files = []
     for packed in unpack(download):
-        of_platform = sender(packed.path)
-        senders += of_platform is not None
-        whose, part = of_platform or (Sender("plain", ""), min(1, len(packed.path) - 1))
         what = recognise(packed.name, packed.content, released) if packed.content is not None else None
-        stamp = digest(what.content) if what else ""
-        copy = kept / stamp if what else None
+        copy = kept / digest(what.content) if what else None
         if what and copy:
             copy.write_bytes(what.content)
             what = replace(what, content=b"")
-        written = packed.written(part)
-        found.append(_Piece(replace(packed, content=None), whose, what, copy, stamp, written))
-    if not senders:
-        names = {one.exercise for one in released} | _NOT_NAMES
-        theirs = [piece for piece in found if not is_left_out(piece.packed.path[1:])]
-        found = [replace(piece, sender=_plain(piece, names, roster)) for piece in theirs]
+        files.append((replace(packed, content=None), what, copy))
+    names = {one.exercise for one in released} | _NOT_NAMES
+    level = _platform_level([packed for packed, *_ in files])
+    found = []
+    for packed, what, copy in files:
+        if level is not None:
+            whose, place = sender(packed.level(level)) or (Sender("plain", ""), 0)
+            part = min(packed.starts[min(level, len(packed.starts) - 1)] + place, len(packed.path) - 1)
+        elif packed.name == EMPTY or is_left_out(packed.path[1:]):
+            continue
+        else:
+            whose, part = _plain(packed, what, names, roster), min(1, len(packed.path) - 1)
+        found.append(_Piece(packed, whose, what, copy, copy.name if copy else "", packed.written(part)))
     times = [piece.written for piece in found]
     if not times:
         return []
-    tells = max(times) - min(times) > _ONE_DOWNLOAD
-    return [
-        replace(piece, downloaded=max(times), handed_in=piece.written if tells and senders else None) for piece in found
-    ]
+    tells = level is not None and max(times) - min(times) > _ONE_DOWNLOAD
+    return [replace(piece, downloaded=max(times), handed_in=piece.written if tells else None) for piece in found]
 
 
-def _plain(piece: _Piece, not_names: set[str], roster: Roster) -> Sender:
+def _platform_level(files: Sequence[Packed]) -> int | None:
+    """How deep in archives the platform's names stand: 0, or 1 where its archive was packed once more; None without any.
+
+    Deeper down names are those that students gave. One archive in the download is the platform's only if all its files
+    have senders, so that nobody's own zip in a plain download passes for one.
+    """
+    if any(sender(packed.level(0)) for packed in files if packed.starts):
+        return 0
+    inner = [packed for packed in files if len(packed.starts) > 1]
+    alone = {packed.path[: packed.starts[1]] for packed in inner} if inner else set()
+    others = [packed for packed in files if len(packed.starts) == 1 and not is_left_out(packed.path[1:])]
+    if len(alone) >= 1 and not others and all(sender(packed.level(1)) for packed in inner):
+        return 1
+    return None
+
+
+def _plain(packed: Packed, what: Found | None, not_names: set[str], roster: Roster) -> Sender:
     """Whose file it is where no platform says so: by a folder's or an archive's name, the roster's names first."""
-    *folders, name = piece.packed.path
+    *folders, name = packed.path
     stems = [re.sub(r"\.zip\Z", "", part, flags=re.IGNORECASE) for part in folders]
-    on_roster = next((part for part in (*stems[1:], PurePath(name).stem, *stems[:1]) if roster.named(part)), None)
-    typed = piece.found.typed if piece.found else None
-    if on_roster is None and typed and roster.named(typed):
-        on_roster = typed
-    if on_roster is None and piece.packed.trouble and len(piece.packed.path) == 1:
-        return piece.sender
-    inside = [part for part in stems[1:] if part.lower() not in not_names and part != stems[0]]
+    own = packed.starts[1] if len(packed.starts) > 1 else len(packed.path)
+    outside = (*stems[1:own], *([PurePath(name).stem] if own == len(packed.path) else []), *stems[:1])
+    on_roster = next((part for part in outside if roster.named(part)), None)
+    if on_roster is None and what and what.typed and roster.named(what.typed):
+        on_roster = what.typed
+    if on_roster is None and packed.trouble and len(packed.path) == 1:
+        return Sender("plain", "")
+    inside = [part for part in stems[1:own] if part.lower() not in not_names and part != stems[0]]
     return Sender("plain", on_roster or (inside or stems or [PurePath(name).stem])[0])
 
 
+@dataclass(frozen=True)
+class _Owner:
+    """Who one person of a platform is in the course, with what is to be said about it."""
+
+    student: str
+    remarks: tuple[str, ...] = ()
+    sure: bool = False
+    """Whether a number says so, not only a name."""
+
+
 def _owners(
-    groups: Mapping[tuple[str, str, str], list[_Piece]],
-    roster: Roster,
-    receipts: Mapping[str, Receipt],
-    people: Mapping[str, Person],
-) -> dict[str, tuple[list[tuple[str, str, str]], tuple[str, ...]]]:
+    groups: Mapping[_Key, list[_Piece]], roster: Roster, receipts: Mapping[str, Receipt], people: Mapping[str, Person]
+) -> dict[str, tuple[list[_Key], tuple[str, ...]]]:
     """The ids of those who handed in, with the keys of their files and what is to be said about it."""
-    known = {(one.platform, one.number): student for student, one in receipts.items() if one.number}
-    same_name = Counter((key[0], _first(group).name) for key, group in groups.items())
-    owners: dict[str, tuple[list[tuple[str, str, str]], tuple[str, ...]]] = {}
-    unsure = []
-    for key, group in groups.items():
-        whose = _first(group)
-        person = people.get(whose.number) if whose.platform == "moodle" else roster.with_canvas_id(whose.number)
-        on_roster = roster.named(whose.name)
-        if person is None and len(on_roster) == 1 and same_name[key[0], whose.name] == 1:
-            person = on_roster[0]
-        if person is None and (len(on_roster) > 1 or not whose.name or same_name[key[0], whose.name] > 1):
-            unsure.append((key, group, on_roster))
-            continue
-        student = person.id if person else known.get((whose.platform, whose.number), _as_id(whose))
-        remarks: tuple[str, ...] = ()
-        if person is None and roster.people:
-            members = [member.id for member in roster.of_group(whose.name)]
-            remarks = (f"a group: {', '.join(members)}",) if members else ("not on the roster",)
-        keys, said = owners.get(student, ([], ()))
-        owners[student] = ([*keys, key], tuple(dict.fromkeys((*said, *remarks))))
-    claims = {key: _claimed(group, on_roster, roster) for key, group, on_roster in unsure}
-    for key, group, _ in unsure:
-        whose, claim = _first(group), claims[key]
-        before = known.get((whose.platform, whose.number))
+    known: dict[tuple[str, str], str] = {
+        (one.platform, one.number): student for student, one in receipts.items() if one.number
+    }
+    found = {key: _owner(_first(group), roster, people) for key, group in groups.items()}
+    unsure = [key for key, owner in found.items() if owner is None or _is_taken(key, owner, found)]
+    claims = {key: _claimed(groups[key], roster) for key in unsure}
+    owners: dict[str, tuple[list[_Key], tuple[str, ...]]] = {}
+    for key, owner in found.items():
+        if owner is not None and key not in unsure:
+            keys, said = owners.get(owner.student, ([], ()))
+            owners[owner.student] = ([*keys, key], tuple(dict.fromkeys((*said, *owner.remarks))))
+    for key in unsure:
+        whose, claim, before = _first(groups[key]), claims[key], known.get(key[:2])
         if claim and claim not in owners and list(claims.values()).count(claim) == 1:
             owners[claim] = ([key], ("the platform does not say who it is; taken for the id typed in the notebook",))
         elif before and before not in owners:
@@ -239,12 +267,40 @@ def _owners(
     return owners
 
 
+def _owner(whose: Sender, roster: Roster, people: Mapping[str, Person]) -> _Owner | None:
+    """Who that is, by the platform's number or by a name that only one person has; None if neither tells."""
+    person = people.get(whose.number) if whose.platform == "moodle" else roster.with_canvas_id(whose.number)
+    if person is not None:
+        return _Owner(person.id, sure=True)
+    on_roster = roster.named(whose.name)
+    if len(on_roster) > 1 or not whose.name:
+        return None
+    if on_roster:
+        return _Owner(on_roster[0].id)
+    members = [member.id for member in roster.of_group(whose.name)]
+    if members:
+        return _Owner(_as_id(whose), (f"a group: {', '.join(members)}",))
+    return _Owner(_as_id(whose), ("not on the roster",) if roster.people else ())
+
+
+def _is_taken(key: _Key, owner: _Owner, found: Mapping[_Key, _Owner | None]) -> bool:
+    """Whether somebody else on the same platform is the same for the course, so that a name does not tell."""
+    return not owner.sure and any(
+        other != key
+        and other[0] == key[0]
+        and one is not None
+        and normal_form(one.student) == normal_form(owner.student)
+        for other, one in found.items()
+    )
+
+
 def _first(group: Sequence[_Piece]) -> Sender:
     return group[0].sender
 
 
-def _claimed(group: Sequence[_Piece], on_roster: Sequence[Person], roster: Roster) -> str | None:
-    """The student of the roster whose id was typed into the newest notebook."""
+def _claimed(group: Sequence[_Piece], roster: Roster) -> str | None:
+    """The student of the roster whose id was typed into the newest notebook, if that fits the platform's name."""
+    on_roster = roster.named(_first(group).name)
     typed = [piece.found.typed for piece in sorted(group, key=lambda piece: piece.newest_last) if piece.found]
     found = roster.named(typed[-1]) if typed and typed[-1] else []
     return found[0].id if len(found) == 1 and (not on_roster or found[0] in on_roster) else None
@@ -252,7 +308,9 @@ def _claimed(group: Sequence[_Piece], on_roster: Sequence[Person], roster: Roste
 
 def _as_id(whose: Sender) -> str:
     """The platform's name as the name of a folder."""
-    name = re.sub(r"[<>\"&/\\\x00]", "", terminal_text(whose.name, 100)).lstrip(".").strip()
+    name = re.sub(r"[<>\"&/\\]", "", terminal_text(whose.name)).strip(" .\u00a0")
+    while len(name.encode()) > _LONGEST_ID:
+        name = name[:-1]
     return name if name and why_unusable(name) is None else f"{whose.platform} {whose.number}".strip()
 
 
@@ -317,8 +375,8 @@ def _receipt(piece: _Piece, pieces: Sequence[_Piece], late: Sequence[str]) -> Re
         downloaded=piece.downloaded,
         file=piece.shown,
         digest=piece.digest,
-        attempt=attempt(piece.packed.path),
-        upload=upload(piece.packed.path),
+        attempt=attempt(piece.packed.name),
+        upload=whose.upload,
         answered=piece.found.answered if piece.found else 0,
     )
 

@@ -9,6 +9,7 @@ the file's name, the name in lower case, of word characters only, family name fi
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -38,6 +39,8 @@ class Sender:
         What the platform puts before the names of this person's files, and finds the person by when files come back.
     late : bool
         Whether the platform marks it as late.
+    upload : int
+        Canvas's number of the uploaded file, which grows with time.
     """
 
     platform: Platform
@@ -45,6 +48,7 @@ class Sender:
     number: str = ""
     prefix: str = ""
     late: bool = False
+    upload: int = 0
 
     @property
     def key(self) -> tuple[str, str, str]:
@@ -52,38 +56,37 @@ class Sender:
         return (self.platform, self.number, "" if self.number else self.name)
 
 
-def sender(path: tuple[str, ...]) -> tuple[Sender, int] | None:
-    """Who handed in the file at `path` of a download, and which part of the path says so; None if no platform wrote one."""
-    for place, part in enumerate(path):
-        if found := _MOODLE.fullmatch(part):
-            prefix = part[: found.start("rest")].rstrip("_") if found["rest"] is not None else part
-            name = "" if _only_letters(found["name"]) in _NOBODY else found["name"]
-            return Sender("moodle", name, found["number"] or "", prefix), place
-    for place, part in enumerate(path):
-        if found := _ANONYMOUS.fullmatch(part):
-            return Sender("canvas", "", found["number"], part[: found.end("number")], bool(found["late"])), place
-        if found := _CANVAS.fullmatch(part):
-            return Sender(
-                "canvas", found["name"], found["number"], part[: found.end("number")], bool(found["late"])
-            ), place
+def sender(parts: Sequence[str]) -> tuple[Sender, int] | None:
+    """Who handed in a file, and which part of its path in the platform's own archive says so; None if none does.
+
+    The first part that fits is the platform's, and in it what stands first: whatever comes behind was named by those
+    who hand in, who may write anybody's name there.
+    """
+    for place, part in enumerate(parts):
+        if found := _moodle(part) or _canvas(part):
+            return found, place
     return None
 
 
-def attempt(path: tuple[str, ...]) -> int:
-    """Number of the attempt that a platform or a browser wrote behind a file's name: 1 of ``scara (1).ipynb``."""
-    sent = next((part for part in path if _MOODLE.fullmatch(part) or _CANVAS.fullmatch(part)), "")
-    found = _COPY.search(path[-1]) or _COPY.search(sent)
+def attempt(name: str) -> int:
+    """The number that a platform or a browser wrote behind a file's name: 1 of ``scara (1).ipynb``."""
+    found = _COPY.search(name)
     return int((found[1] or found[2])[:9]) if found else 0
 
 
-def upload(path: tuple[str, ...]) -> int:
-    """Canvas's number of the uploaded file, which grows with time; 0 where there is none."""
-    for part in path:
-        found = _CANVAS.fullmatch(part) or _ANONYMOUS.fullmatch(part)
-        if found and found["file"]:
-            return int(found["file"][:18])
-    return 0
+def _moodle(part: str) -> Sender | None:
+    found, other = _MOODLE.fullmatch(part), _CANVAS.fullmatch(part)
+    if found is None or (other is not None and other.start("number") < found.end("name")):
+        return None
+    prefix = part if found["rest"] is None else part[: found.start("rest")].rstrip("_")
+    name = "" if re.sub(r"[\W\d]", "", found["name"]).casefold() in _NOBODY else found["name"]
+    return Sender("moodle", name, found["number"] or "", prefix)
 
 
-def _only_letters(name: str) -> str:
-    return re.sub(r"[\W\d]", "", name).casefold()
+def _canvas(part: str) -> Sender | None:
+    found = _ANONYMOUS.fullmatch(part) or _CANVAS.fullmatch(part)
+    if found is None:
+        return None
+    name = found.groupdict().get("name") or ""
+    upload = int((found["file"] or "0")[:18])
+    return Sender("canvas", name, found["number"], part[: found.end("number")], bool(found["late"]), upload)

@@ -58,13 +58,13 @@ def roster(root, *names, more=""):
     ],
 )  # fmt: skip
 def test_a_downloaded_file_tells_its_sender(path, name, number, prefix, late):
-    whose, _ = sender(("all.zip", *path.split("/")))
+    whose, _ = sender(path.split("/"))
     assert (whose.name, whose.number, whose.prefix, whose.late) == (name, number, prefix, late)
 
 
 @pytest.mark.parametrize("path", ["scara.ipynb", "Ada Lovelace/scara.ipynb", "notes_2024.ipynb", "__MACOSX/._x"])
 def test_other_names_tell_nothing(path):
-    assert sender(("all.zip", *path.split("/"))) is None
+    assert sender(path.split("/")) is None
 
 
 def test_collecting_again_changes_nothing_and_a_newer_one_replaces_the_older(downloads, collect, root):
@@ -332,3 +332,76 @@ def test_what_cannot_be_collected_is_said(downloads, collect, root):
     (root / "exercises/scara/scara.ipynb").unlink()
     with pytest.raises(CourseError, match="autograder release scara"):
         collect(b"")
+
+
+def test_nobody_can_pack_a_file_under_anothers_name(downloads, collect, root):
+    """Whatever stands inside of what Eve uploads is Eve's."""
+    roster(root, "Ada Lovelace", "Eve E")
+    own, forged = right(downloads, "ada", 3), right(downloads, "eve")
+    inner = downloads.zipped(
+        {"Ada Lovelace_4711_assignsubmission_file_/scara.ipynb": forged, "lovelaceada_3000_999999_scara.ipynb": forged}
+    )
+    people = [student(downloads, "Ada Lovelace", own), student(downloads, "Eve E", inner, "x.zip", hours={"x.zip": 90})]
+    flat = student(downloads, "Eve E", forged, "Ada Lovelace_4711_assignsubmission_file_scara.ipynb")
+    plain = downloads.zipped({"Ada Lovelace/scara.ipynb": own, "Eve E.zip": inner})
+    for made in (
+        downloads.moodle(people), downloads.moodle([people[0], flat], folders=False), downloads.canvas(people),
+        downloads.canvas([people[0], flat]), plain, downloads.zipped({"all.zip": downloads.canvas(people)}),
+    ):  # fmt: skip
+        assert statuses(collect(made, force=True)).keys() == {"s0", "s1"}
+        assert (handed_in(root, "s0"), handed_in(root, "s1")) == (own, forged)
+
+
+def test_the_name_of_the_download_itself_tells_nothing(downloads, collect, root):
+    path = root.parent / "submissions_2026_10_12.zip"
+    path.write_bytes(downloads.moodle([student(downloads, "Ann A", right(downloads))]))
+    assert statuses(collect(path)) == {"Ann A": "collected"}
+
+
+@pytest.mark.parametrize("names", [("José García", "Jose Garcia"), ("Ann A", "ann a"), ("Ann A", "A. Nna")])
+def test_two_whose_names_are_the_same_for_the_roster_stay_two(names, downloads, collect, root):
+    (root / "students.csv").write_text(
+        f"id,last_name,first_name\nthis,{names[0].split()[1]},{names[0].split()[0]}\n", encoding="utf-8"
+    )
+    people = [student(downloads, name, right(downloads, str(number))) for number, name in enumerate(names)]
+    for made in (downloads.moodle(people), downloads.canvas(people)):
+        rows = collect(made)
+        found = {row.student for row in rows if row.status != "missing"}
+        assert len(found) == 2
+        assert {handed_in(root, who) for who in found} == {one.wanted for one in people}
+
+
+def test_who_was_collected_under_another_name_before_is_told(downloads, collect, root):
+    download = downloads.moodle([student(downloads, "Ann A", right(downloads, "ann"))])
+    collect(download)
+    roster(root, "Ann A")
+    (row,) = collect(download)
+    assert row.student == "s0" and "was collected as Ann A before" in row.remarks[-1]
+    (row,) = collect(download)
+    assert row.status == "unchanged" and not row.remarks
+
+
+def test_an_empty_folder_is_told(downloads, collect, root):
+    made = zipfile.ZipFile(file := io.BytesIO(downloads.moodle([student(downloads, "Ann A", right(downloads))])), "a")
+    made.writestr("Ben B_4800_assignsubmission_file_/", "")
+    made.writestr("Ann A_4711_assignsubmission_file/", "")
+    made.close()
+    rows = {row.student: row for row in collect(file.getvalue())}
+    assert rows["Ben B"].status == "no notebook" and "empty folder" in rows["Ben B"].remarks[0]
+    assert rows["Ann A"].status == "collected" and not rows["Ann A"].remarks
+
+
+@pytest.mark.parametrize("name", ["x" * 300, "王" * 120, "a\u202eb\u0007c", "Ann ..", "~", "CON", "-rf", "Ann\u00a0A"])
+def test_odd_names_become_folders(name, downloads, collect, root):
+    made = downloads.zipped({f"{name}_1_assignsubmission_file/scara.ipynb": (content := right(downloads))})
+    (row,) = collect(made)
+    assert row.status == "collected" and handed_in(root, row.student) == content
+    assert row.student == row.student.strip() and row.student.isprintable()
+
+
+@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be", "utf-8-sig", "cp1252"])
+def test_encodings_of_editors_are_read(encoding, downloads, collect, root):
+    text = right(downloads, "é").decode()
+    collect(downloads.moodle([student(downloads, "Ann A", text.encode(encoding, "ignore"))]))
+    found = handed_in(root, "Ann A").decode("utf-8-sig")
+    assert found == text.encode(encoding, "ignore").decode(encoding).removeprefix("\ufeff")
