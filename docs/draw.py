@@ -13,7 +13,7 @@ from autograder.reference import robots
 from dhkit.drawing import draw_chain, draw_posture_gallery
 
 HERE = Path(__file__).parent
-Q = np.radians([-20, 55, -30, 20, 60, 0])
+Q = np.radians([-20, 40, -15, 20, 60, 0])
 REACH_OUT = np.radians([0, 15, -6, 40, 50, -30])
 
 

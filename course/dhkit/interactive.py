@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import math
 from io import BytesIO
 
 import matplotlib.pyplot as plt
@@ -31,7 +32,7 @@ def explore(draw, **sliders: tuple[float, float, float]) -> None:
         return
     controls = {
         name: ipywidgets.FloatSlider(
-            value, min=low, max=high, step=(high - low) / 100, description=name, readout_format=".3g"
+            value, min=low, max=high, step=step_of(low, high, value), description=name, readout_format=".3g"
         )
         for name, (low, high, value) in sliders.items()
     }
@@ -53,6 +54,21 @@ def explore(draw, **sliders: tuple[float, float, float]) -> None:
         "image/png": base64.b64encode(static).decode(),
     }
     display(bundle, raw=True)
+
+
+def step_of(low: float, high: float, start: float) -> float:
+    """A round step, about a hundredth of the range, that both ends, the start and zero are whole numbers of.
+
+    A slider shows only what it can reach: with any other step its number is not the one that is drawn.
+    """
+    largest = (high - low) / 50
+    decade = math.floor(math.log10(largest))
+    for tens in (decade, decade - 1, decade - 2):
+        for digit in (5, 2, 1):
+            step = round(digit * 10.0**tens, max(0, -tens))
+            if step <= largest and all(abs(value / step - round(value / step)) < 1e-9 for value in (low, high, start)):
+                return step
+    return (high - low) / 100
 
 
 def _png(draw, values: dict[str, float]) -> bytes:

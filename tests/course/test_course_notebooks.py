@@ -70,6 +70,15 @@ def test_lectures_need_no_grader(path):
     assert "autograder" not in source and "nbgrader" not in source
 
 
+@pytest.mark.parametrize("path", LECTURES, ids=name)
+def test_names_of_formulas_are_typeset(path):
+    """SymPy makes an index of what follows a low line; a name in braces it leaves to LaTeX."""
+    for cell in read(path).cells:
+        if cell.cell_type == "code":
+            for shown in re.findall(r'\bshow\(r?"([^"]*)",', cell.source):
+                assert " " not in shown or "{" in shown, f"{cell.id}: {shown}"
+
+
 @pytest.mark.parametrize("path", SOLUTIONS, ids=name)
 def test_every_question_is_asked_once_in_the_exact_form(path):
     notebook = read(path)

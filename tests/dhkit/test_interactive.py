@@ -59,3 +59,19 @@ def test_moving_a_slider_redraws(shown, monkeypatch):
     interactive.explore(record, t1=(-1, 1, 0.3), t2=(-1, 1, 0.5))
     sliders[1].value = -0.5
     assert drawn == [{"t1": 0.3, "t2": 0.5}, {"t1": 0.3, "t2": -0.5}]
+
+
+SLIDERS = [(-90, 90, 40), (-180, 180, 50), (0.3, 1.2, 0.8), (-40, 75, 30), (-60, 120, 40), (0.0, 0.3, 0.2), (0, 4, 4)]
+
+
+@pytest.mark.parametrize("low, high, start", [*SLIDERS, (-179, 178, -60), (0.02, 0.6, 0.1), (-1.0, 1.0, 0.35)])
+def test_a_slider_reaches_its_ends_its_start_and_zero(low, high, start):
+    step = interactive.step_of(low, high, start)
+    assert (high - low) / 400 < step <= (high - low) / 50
+    reachable = {round(low + k * step, 9) for k in range(round((high - low) / step) + 1)}
+    assert {low, high, start} <= reachable
+    assert 0 in reachable or low > 0 or high < 0
+
+
+def test_a_range_of_odd_numbers_has_a_hundred_steps():
+    assert interactive.step_of(0, 1, 1 / 3) == pytest.approx(0.01)

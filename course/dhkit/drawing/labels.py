@@ -13,6 +13,7 @@ from .view import to_pixels, view_axes
 
 TURNS = np.radians([0, 30, -30, 60, -60, 90, -90, 125, -125, 180])  # away from the wished direction, as tried
 EXTRA = (0, 9, 20)  # further away than the wished gap, in points of print
+CLEARLY = 1.6  # how many times nearer a label is to its own point than to another's
 
 
 class _Label(NamedTuple):
@@ -81,7 +82,10 @@ class Labels:
             for k, options in enumerate(choices):
                 others = [(places[j], halves[j]) for j in range(len(places)) if j != k and (sweep or j in placed)]
                 costs = [
-                    cost + _crowding(place, halves[k], others, obstacles, ax.figure.bbox) for place, cost in options
+                    cost
+                    + _crowding(place, halves[k], others, obstacles, ax.figure.bbox)
+                    + _confusion(place, anchors, k)
+                    for place, cost in options
                 ]
                 places[k] = options[int(np.argmin(costs))][0]
                 placed.add(k)
@@ -117,6 +121,13 @@ def _width(text: str) -> float:
             width += 0.42 if small else 0.34 if letter in ",. il" else 0.66
             small = small and letter != ","
     return width
+
+
+def _confusion(place, anchors, own) -> float:
+    """What a place costs that is not clearly nearer to what its label names than to what another one does."""
+    away = np.linalg.norm(anchors - place, axis=1)
+    others = np.delete(away, own)
+    return 12.0 * max(0.0, 1.0 - others.min() / (CLEARLY * away[own])) if len(others) else 0.0
 
 
 def _crowding(centre, half, others, obstacles, frame) -> float:

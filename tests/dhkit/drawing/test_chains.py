@@ -11,7 +11,8 @@ from matplotlib.transforms import Bbox
 from mpl_toolkits.mplot3d import proj3d
 from sympy import Matrix, pi, symbols
 
-from dhkit.drawing import chain_frames, draw_chain
+from dhkit.drawing import chain_frames, draw_chain, labels
+from dhkit.drawing.view import to_pixels
 
 t1, t2, t3, t4, t5, t6, a2, a3, d2, d4 = symbols("t1 t2 t3 t4 t5 t6 a2 a3 d2 d4")
 
@@ -159,3 +160,25 @@ def test_a_robot_can_be_drawn_into_given_axes():
     assert draw_chain(RX90, RX90_AT, ax) is ax
     x, y, _ = proj3d.proj_transform(0, 0, 0, ax.get_proj())
     assert np.isfinite([x, y]).all()
+
+
+SHOULDER_UP = {f"t{i}": angle for i, angle in enumerate(np.radians([-20, 55, -30, 20, 60, 0]), 1)} | {"a3": 0.45, "d4": 0.45}
+NAMED = {
+    "rx90": (RX90, SHOULDER_UP, {"frames": ()}),
+    "rx90 with lengths": (RX90, SHOULDER_UP, {"frames": (), "normals": True}),
+    "rx90 with frames": (RX90, SHOULDER_UP, {"frames": (0, 3, 6)}),
+    "planar": (PLANAR, {"t1": 0.5, "t2": 0.7, "a2": 0.5, "a3": 0.4}, {"tool": True, "normals": True}),
+}
+
+
+@pytest.mark.parametrize("name", NAMED)
+def test_a_label_stands_nearest_to_what_it_names(name, monkeypatch):
+    rows, values, options = NAMED[name]
+    asked = []
+    ask = labels.Labels.ask
+    monkeypatch.setattr(labels.Labels, "ask", lambda self, at, *rest, **more: asked.append(at) or ask(self, at, *rest, **more))
+    ax = draw_chain(rows, values, **options)
+    anchors, places = to_pixels(ax, asked), to_pixels(ax, [text.get_position_3d() for text in ax.texts])
+    for k, (text, place) in enumerate(zip(ax.texts, places, strict=True)):
+        away = np.linalg.norm(anchors - place, axis=1)
+        assert away[k] <= away.min() + 1, f"{text.get_text()} stands at the place of {ax.texts[int(away.argmin())].get_text()}"
