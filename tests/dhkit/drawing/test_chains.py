@@ -162,7 +162,10 @@ def test_a_robot_can_be_drawn_into_given_axes():
     assert np.isfinite([x, y]).all()
 
 
-SHOULDER_UP = {f"t{i}": angle for i, angle in enumerate(np.radians([-20, 55, -30, 20, 60, 0]), 1)} | {"a3": 0.45, "d4": 0.45}
+SHOULDER_UP = {f"t{i}": angle for i, angle in enumerate(np.radians([-20, 55, -30, 20, 60, 0]), 1)} | {
+    "a3": 0.45,
+    "d4": 0.45,
+}
 NAMED = {
     "rx90": (RX90, SHOULDER_UP, {"frames": ()}),
     "rx90 with lengths": (RX90, SHOULDER_UP, {"frames": (), "normals": True}),
@@ -176,9 +179,13 @@ def test_a_label_stands_nearest_to_what_it_names(name, monkeypatch):
     rows, values, options = NAMED[name]
     asked = []
     ask = labels.Labels.ask
-    monkeypatch.setattr(labels.Labels, "ask", lambda self, at, *rest, **more: asked.append(at) or ask(self, at, *rest, **more))
+    monkeypatch.setattr(
+        labels.Labels, "ask", lambda self, at, *rest, **more: asked.append(at) or ask(self, at, *rest, **more)
+    )
     ax = draw_chain(rows, values, **options)
     anchors, places = to_pixels(ax, asked), to_pixels(ax, [text.get_position_3d() for text in ax.texts])
     for k, (text, place) in enumerate(zip(ax.texts, places, strict=True)):
         away = np.linalg.norm(anchors - place, axis=1)
-        assert away[k] <= away.min() + 1, f"{text.get_text()} stands at the place of {ax.texts[int(away.argmin())].get_text()}"
+        assert away[k] <= away.min() + 1, (
+            f"{text.get_text()} stands at the place of {ax.texts[int(away.argmin())].get_text()}"
+        )
