@@ -15,6 +15,7 @@ import re
 import zipfile
 from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 
 from dhkit.variants import normal_form
@@ -25,7 +26,7 @@ from .errors import CourseError
 from .files import staged
 from .gradebook import reading
 from .plugins.feedback import FeedbackPages
-from .roster import Roster, read_roster, read_table
+from .roster import Person, Roster, read_roster, read_table
 from .store import StoredNotebook, stored_notebooks
 from .worksheets import MoodleTable, canvas_numbers, is_canvas_student, people_of_numbers, read_moodle
 
@@ -78,6 +79,19 @@ class _Class:
     def remark(self, student: str, said: str) -> None:
         self.remarks.setdefault(student, []).append(said)
 
+    @cached_property
+    def teams(self) -> dict[str, str]:
+        """The groups that handed in together, by the ids of their members who did not hand in alone."""
+        members = {
+            member.id: student for student, one in self.receipts.items() for member in self.roster.of_group(one.name)
+        }
+        return {member: team for member, team in members.items() if member not in self.grades}
+
+    def called(self, text: str) -> str | None:
+        """The one who was graded under this id, however it is written."""
+        found = [student for student in self.grades if normal_form(student) == normal_form(text)]
+        return found[0] if len(found) == 1 else None
+
     def is_exempt(self, student: str) -> bool:
         person = self.roster.get(student)
         return person is not None and self.exercise in person.exempt
@@ -115,20 +129,16 @@ def return_moodle(course: Course, exercise: str, worksheet: Path | None, folder:
             f"{worksheet} is no grading worksheet: it has no column for participants' numbers or for grades"
         )
     owners = _owners_on_moodle(known, table)
-    prefixes = {
-        student: one.prefix for student, one in known.receipts.items() if one.platform == "moodle" and one.prefix
+    prefixes = _prefixes(known, table)
+    pages = {
+        f"{prefixes[number]}_/{exercise}.html": student for number, student in owners.items() if student in known.pages
     }
-    if table is not None:
-        prefixes = {
-            owners[number]: prefix for number, prefix in _prefixes(table).items() if number in owners
-        } | prefixes
-    names = {student: f"{prefix}_/{exercise}.html" for student, prefix in prefixes.items() if student in known.pages}
-    files = {f"{exercise}-feedback.zip": _feedback_zip(known, names)}
+    files = {f"{exercise}-feedback.zip": _feedback_zip(known, pages)}
     points: dict[str, float | None] = {student: grade.score for student, grade in known.grades.items()}
     if table is not None:
         points = {}
         files[f"{exercise}-grades.csv"] = _filled_in(table, owners, known, scale, points)
-    return _write(known, folder, files, points, names)
+    return _write(known, folder, files, points, set(pages.values()))
 
 
 def return_canvas(
@@ -166,13 +176,13 @@ def return_canvas(
         elif (found := points[student]) is not None:
             kept.append([*row[:about], f"{found:g}"])
     table = [[*header[:about], header[column]], *([[*possible[:about], possible[column]]] if possible else []), *kept]
-    names = {
-        student: f"{one.prefix}_{one.upload}_{exercise}.html"
+    pages = {
+        f"{one.prefix}_{one.upload}_{exercise}.html": student
         for student, one in known.receipts.items()
         if one.platform == "canvas" and one.upload and student in known.pages
     }
-    files = {f"{exercise}-grades.csv": _csv(table, b""), f"{exercise}-feedback.zip": _feedback_zip(known, names)}
-    return _write(known, folder, files, points, names)
+    files = {f"{exercise}-grades.csv": _csv(table, b""), f"{exercise}-feedback.zip": _feedback_zip(known, pages)}
+    return _write(known, folder, files, points, set(pages.values()))
 
 
 def _class(course: Course, exercise: str) -> _Class:
@@ -199,23 +209,48 @@ def _class(course: Course, exercise: str) -> _Class:
 
 
 def _owners_on_moodle(known: _Class, table: MoodleTable | None) -> dict[str, str]:
-    """Students' ids by the numbers of the participants."""
-    owners = {one.number: student for student, one in known.receipts.items() if one.platform == "moodle" and one.number}
+    """Students' ids by the numbers of the participants.
+
+    A group's number in a download is no participant's: its members are found by their names.
+    """
+    collected = {
+        one.number: student for student, one in known.receipts.items() if one.platform == "moodle" and one.number
+    }
     if table is None:
-        return owners
-    forms = {normal_form(student): student for student in known.grades}
+        return {number: student for number, student in collected.items() if student not in known.teams.values()}
+    owners: dict[str, str] = {}
+    named: dict[str, list[str]] = {}
     for number, (person, _) in people_of_numbers([table.path], known.roster).items():
-        student = forms.get(normal_form(person.id))
-        if number not in owners and student and student not in owners.values():
+        student = collected.get(number)
+        if student and _fits(known.receipts[student], person):
             owners[number] = student
-    return owners
+        elif team := known.teams.get(person.id):
+            owners[number] = team
+        elif student := known.called(person.id):
+            named.setdefault(student, []).append(number)
+    # Where two have the name, it does not say which of them it is.
+    alone = {
+        numbers[0]: student
+        for student, numbers in named.items()
+        if len(numbers) == 1 and student not in owners.values()
+    }
+    unnamed = {number: collected[number] for number in map(table.number, table.rows) if number in collected}
+    return {**{number: one for number, one in unnamed.items() if not known.receipts[one].name}, **alone, **owners}
 
 
-def _prefixes(table: MoodleTable) -> dict[str, str]:
-    """What Moodle would write before the names of files, by the numbers of the participants."""
+def _fits(receipt: Receipt, person: Person) -> bool:
+    """Whether a number of a download and one of a worksheet are the same person's, as far as names tell."""
+    return not receipt.name or normal_form(receipt.name) in person.names
+
+
+def _prefixes(known: _Class, table: MoodleTable | None) -> dict[str, str]:
+    """What Moodle writes before the names of files, by the numbers of the participants."""
+    collected = {one.number: one.prefix for one in known.receipts.values() if one.platform == "moodle" and one.prefix}
+    if table is None:
+        return collected
     names = {table.number(row): table.cell(row, "name") or "Participant" for row in table.rows}
     plain = {number: re.sub(r"[&<>\"'`|:\\/_]", " ", name) for number, name in names.items() if number}
-    return {number: f"{name}_{number}_assignsubmission_file" for number, name in plain.items()}
+    return collected | {number: f"{name}_{number}_assignsubmission_file" for number, name in plain.items()}
 
 
 def _owner_on_canvas(header: Sequence[str], row: Sequence[str], known: _Class, numbers: Mapping[str, str]) -> str:
@@ -225,13 +260,12 @@ def _owner_on_canvas(header: Sequence[str], row: Sequence[str], known: _Class, n
     if number in numbers:
         return numbers[number]
     if person := known.roster.with_canvas_id(number):
-        return person.id
-    forms = {normal_form(student): student for student in known.grades}
+        return known.teams.get(person.id, person.id)
     for text in texts:
         if len(found := known.roster.named(text)) == 1:
-            return found[0].id
-        if normal_form(text) in forms:
-            return forms[normal_form(text)]
+            return known.teams.get(found[0].id, found[0].id)
+        if student := known.called(text):
+            return student
     return texts[0]
 
 
@@ -288,11 +322,11 @@ def _csv(rows: Iterable[Iterable[str]], start: bytes) -> bytes:
     return start + file.getvalue().encode()
 
 
-def _feedback_zip(known: _Class, names: Mapping[str, str]) -> bytes:
-    """The feedback pages of students under the names by which the platform finds them."""
+def _feedback_zip(known: _Class, entries: Mapping[str, str]) -> bytes:
+    """The feedback pages of students, by the names under which the platform finds them."""
     file = io.BytesIO()
     with zipfile.ZipFile(file, "w") as archive:
-        for student, name in sorted(names.items()):
+        for name, student in sorted(entries.items()):
             content = known.pages[student].read_bytes()
             archive.writestr(zipfile.ZipInfo(name, _EPOCH), content, zipfile.ZIP_DEFLATED)
     return file.getvalue()

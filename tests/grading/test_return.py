@@ -145,6 +145,38 @@ def test_without_receipts_the_worksheet_tells_the_numbers(graded, tmp_path):
     assert moodle_reads_grades((tmp_path / "scara-grades.csv").read_bytes())[0].keys() == {"4711", "4712", "4713"}
 
 
+def test_of_two_with_one_name_nobody_gets_the_others_points(graded, tmp_path):
+    root = graded["moodle"]
+    twins = WORKSHEET.replace("Participant 4715,Dan Dare", "Participant 4716,Zoë O'Brien")
+    worksheet = tmp_path / "worksheet.csv"
+    worksheet.write_text(twins)
+    return_moodle(open_course(root), "scara", worksheet, tmp_path, False)
+    assert moodle_reads_grades((tmp_path / "scara-grades.csv").read_bytes())[0].keys() == {"4711", "4712", "4713"}
+    worksheet.write_text(twins.replace("4712", "4717"))
+    lines = {line.student: line for line in return_moodle(open_course(root), "scara", worksheet, tmp_path, False)}
+    assert moodle_reads_grades((tmp_path / "scara-grades.csv").read_bytes())[0].keys() == {"4711", "4713"}
+    assert "graded, but not found on the platform" in lines["zoe"].remarks
+
+
+def test_a_groups_points_go_to_its_members(graded, tmp_path):
+    root = tmp_path / "course"
+    shutil.copytree(graded["moodle"], root)
+    receipts = root / "downloaded/scara/collected.json"
+    receipts.write_text(receipts.read_text().replace('"Zoë OBrien"', '"Team 3"').replace('"4712"', '"4715"'))
+    people = "id,last_name,first_name,groups\nzoe,Brown,Zed,\ngil,Gamesh,Gil,Team 3\nkid,Enkidu,Kid,Team 3\n"
+    (root / "students.csv").write_text(people)
+    worksheet = tmp_path / "worksheet.csv"
+    names = {4715: "Dan Dare", 4801: "Gil Gamesh", 4802: "Kid Enkidu"}
+    lines = "".join(f"Participant {number},{name},,20.00,-\n" for number, name in names.items())
+    worksheet.write_text(f"Identifier,Full name,Grade,Maximum grade,Last modified (grade)\n{lines}")
+    return_moodle(open_course(root), "scara", worksheet, tmp_path, False)
+    assert moodle_reads_grades((tmp_path / "scara-grades.csv").read_bytes())[0] == {"4801": 4.0, "4802": 4.0}
+    pages = moodle_reads_feedback(
+        (tmp_path / "scara-feedback.zip").read_bytes(), {str(number): name for number, name in names.items()}
+    )
+    assert pages.keys() == {"Gil Gamesh", "Kid Enkidu"}
+
+
 def test_another_maximum_is_refused_or_scaled(graded, tmp_path):
     worksheet = tmp_path / "worksheet.csv"
     worksheet.write_text(WORKSHEET.replace("20.00", "10.00"))
