@@ -56,6 +56,9 @@ def _shown(limit: Field) -> str:
     return f"{default >> size}{letter}"
 
 
+_LITTLE_LATER = 0.05  # seconds
+
+
 class Stopped(KeyboardInterrupt):
     """A signal asked the command to stop."""
 
@@ -74,16 +77,31 @@ def _stoppable() -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         before = {}
 
+    report = sys.unraisablehook
+
+    def arm() -> None:
+        for number in before:
+            signal.signal(number, stop)
+
     def stop(number: int, frame: object) -> None:
         for each in before:
             signal.signal(each, lambda number, frame: os._exit(128 + number))
         raise Stopped(number)
 
-    for number in before:
-        signal.signal(number, stop)
+    def again(unraisable: Any) -> None:
+        if not isinstance(unraisable.exc_value, Stopped):
+            return report(unraisable)
+        # It came while Python was cleaning up an object, where no exception gets through: once more, a little later.
+        arm()
+        whom = (threading.main_thread().ident, unraisable.exc_value.number)
+        threading.Timer(_LITTLE_LATER, signal.pthread_kill, whom).start()
+
+    arm()
+    sys.unraisablehook = again
     try:
         yield
     finally:
+        sys.unraisablehook = report
         for number, handler in before.items():
             signal.signal(number, handler)
 

@@ -176,6 +176,14 @@ def stop(process, events, at, further, numbers):
     return family
 
 
+def is_alive(process):
+    # Whoever nobody waits for, in a container without an init, stays in the table.
+    with suppress(psutil.NoSuchProcess):
+        return process.is_running() and process.status() != psutil.STATUS_ZOMBIE
+    return False
+
+
+@pytest.mark.xdist_group("stopped at random moments")
 def test_stopped_at_random_moments(needs_sandbox, faults, small, course_copy, released, temporary, started):
     hand_in(small, course_copy, released, "A")
     events = Events(course_copy, temporary)
@@ -199,13 +207,13 @@ def test_stopped_at_random_moments(needs_sandbox, faults, small, course_copy, re
         after = by_student(faults.entries(course_copy))
         assert before.keys() <= after.keys()
         assert all(rows in (before.get(student), entries_of(student, d2_sign)) for student, rows in after.items())
-        assert not psutil.wait_procs(family, timeout=60)[1]
+        while any(map(is_alive, family)):
+            time.sleep(0.05)
         assert numbers == (SIGKILL,) or len(numbers) == 2 or not list(temporary.iterdir())
     assert sum(code != 0 for code in codes) > MOMENTS // 2, codes
-    hand_in(small, course_copy, released, "B")
     code, said = ended(started(*GRADE))
     assert code == 0, said
-    assert ends_right(faults, course_copy, "B")
+    assert ends_right(faults, course_copy, d2_sign)
     assert not list(temporary.iterdir())
     assert not [one for one in psutil.process_iter(["cmdline"]) if SLEEPER in " ".join(one.info["cmdline"] or ())]
     assert [path.name for path in course_copy.glob("*gradebook*")] == ["gradebook.db"]
@@ -214,6 +222,7 @@ def test_stopped_at_random_moments(needs_sandbox, faults, small, course_copy, re
 # ---------------------------------------------------------------- beside each other
 
 
+@pytest.mark.xdist_group("graders beside each other")
 def test_graders_beside_each_other(needs_sandbox, faults, small, course_copy, released, started, capsys):
     """Ours and nbgrader's, of one exercise and of two, of a student with an older grade and of a new one."""
     (course_copy / "solutions/second").mkdir()

@@ -1,9 +1,13 @@
 """Stopped at any step of storing, in any way: the gradebook opens, and the next run ends with what is right."""
 
+import os
 import re
+import time
 from signal import SIG_IGN, SIGHUP, SIGINT, SIGKILL, SIGTERM, signal
 
 import pytest
+
+from autograder.grading.plugins import preprocessors
 
 pytestmark = pytest.mark.slow
 
@@ -52,9 +56,11 @@ def test_the_class_is_graded(right):
 
 @pytest.mark.xdist_group("killed at any step")
 @pytest.mark.parametrize("step", STEPS)
-def test_killed(faults, course, right, step):
+def test_killed(faults, course, right, step, capsys):
     assert fault(faults, course, right, step, [SIGKILL]) == -SIGKILL
+    found = {student for student, check, score, _ in faults.entries(course) if score == 4}
     assert ends_right(faults, course, right)
+    assert f"{3 - len(found)} graded; {len(found)} unchanged" in capsys.readouterr().out
 
 
 @pytest.mark.xdist_group("told to stop at any step")
@@ -88,6 +94,33 @@ def test_a_signal_that_is_ignored_stays_ignored(faults, course, right, number, c
     assert faults.run(action) == 0
     assert "interrupted" not in capfd.readouterr().err
     assert faults.entries(course) == right.entries and faults.files_below(course) == right.files
+
+
+class Cleaned:
+    """An object in whose cleaning up a signal comes, where Python lets no exception through."""
+
+    def __del__(self):
+        os.kill(os.getpid(), SIGTERM)
+        for _ in range(1000):  # its handler runs meanwhile
+            pass
+
+
+@pytest.mark.xdist_group("told to stop at any step")
+def test_a_signal_that_comes_while_something_is_cleaned_up_is_no_lost_one(faults, course, right, monkeypatch, capfd):
+    def judge(*evidence):
+        Cleaned()
+        for _ in range(1000):
+            time.sleep(0.01)
+        return os._exit(98)
+
+    def action():
+        monkeypatch.setattr(preprocessors, "judge", judge)
+        return faults.grade(course)
+
+    assert faults.run(action) == 128 + SIGTERM
+    said = capfd.readouterr().err
+    assert "interrupted: " in said and "Traceback" not in said
+    assert ends_right(faults, course, right)
 
 
 @pytest.mark.xdist_group("full disk at any step")
