@@ -68,7 +68,7 @@ class Stopped(KeyboardInterrupt):
 
 @contextmanager
 def _stoppable() -> Iterator[None]:
-    """Within the block a signal to stop raises `Stopped`; a second one ends the process at once.
+    """Within the block a signal to stop raises `Stopped`; a second one ends the process at once, also after the block.
 
     A signal that is ignored, as under nohup, stays ignored.
     """
@@ -100,6 +100,9 @@ def _stoppable() -> Iterator[None]:
     sys.unraisablehook = again
     try:
         yield
+    except Stopped:
+        before = {}  # the process is about to end
+        raise
     finally:
         sys.unraisablehook = report
         for number, handler in before.items():

@@ -201,7 +201,8 @@ def test_stopped_at_random_moments(needs_sandbox, faults, small, course_copy, re
         family = stop(process, Events(course_copy, temporary), at, further, numbers)
         code, said = ended(process)
         codes.append(code)
-        assert code in (0, -SIGKILL if SIGKILL in numbers else 128 + numbers[0]), said
+        # The last of several may meet a process that is ending, and no longer listens.
+        assert code in {0, -SIGKILL if SIGKILL in numbers else 128 + numbers[0], *(-one for one in numbers[1:])}, said
         assert "Traceback" not in said, said
         # Whoever was graded before has the old result or the new one, as a whole.
         after = by_student(faults.entries(course_copy))

@@ -7,6 +7,7 @@ from signal import SIG_IGN, SIGHUP, SIGINT, SIGKILL, SIGTERM, signal
 
 import pytest
 
+from autograder import cli
 from autograder.grading.plugins import preprocessors
 
 pytestmark = pytest.mark.slow
@@ -94,6 +95,22 @@ def test_a_signal_that_is_ignored_stays_ignored(faults, course, right, number, c
     assert faults.run(action) == 0
     assert "interrupted" not in capfd.readouterr().err
     assert faults.entries(course) == right.entries and faults.files_below(course) == right.files
+
+
+@pytest.mark.xdist_group("told to stop at any step")
+def test_a_second_signal_may_come_while_the_first_is_told(faults, course, right, monkeypatch, capfd):
+    def said(*words, **options):
+        print(*words, **options)
+        os.kill(os.getpid(), SIGINT)
+
+    def action():
+        monkeypatch.setattr(cli, "print", said, raising=False)
+        faults.Steps(right.steps.index("commit"), [SIGINT]).watch()
+        return faults.grade(course)
+
+    assert faults.run(action) == 128 + SIGINT
+    assert "Traceback" not in capfd.readouterr().err
+    assert ends_right(faults, course, right)
 
 
 class Cleaned:
