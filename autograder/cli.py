@@ -268,6 +268,17 @@ def _parser() -> argparse.ArgumentParser:
         text = f"{limit.metadata['help']} (default {_shown(limit)})"
         sandbox.add_argument(f"--{limit.name.replace('_', '-')}", type=read, metavar=metavar, help=text)
 
+    watch = command(
+        "watch",
+        _watch,
+        "Grade whatever arrives in submitted/, until it is stopped with Ctrl-C.",
+        "autograder watch scara",
+    )
+    watch.add_argument("exercise", nargs="*", help="exercises to watch (default: all)")
+    watch.add_argument(
+        "--jobs", type=_positive, metavar="N", help="notebooks that run at the same time (default: one per core)"
+    )
+
     explain = command(
         "explain",
         _explain,
@@ -326,6 +337,16 @@ def _parser() -> argparse.ArgumentParser:
     )
     export.add_argument("--bom", action="store_true", help="mark the file as UTF-8, for Excel")
     export.add_argument("--to", metavar="FILE", default="grades.csv", help="file to write (default: grades.csv)")
+
+    archive = command(
+        "archive",
+        _archive,
+        "Keep a term in one zip: gradebook, what was handed in and given back, roster and dates.",
+        "autograder archive robots-2026.zip --clear",
+    )
+    archive.add_argument("file", metavar="ZIP", help="file to write; it must not be there yet")
+    archive.add_argument("--clear", action="store_true", help="then remove all that from the course, for the next term")
+    archive.add_argument("--yes", action="store_true", help="do not ask before it is removed")
 
     bundle = command("bundle", _bundle, "Write the zip that students get.", "autograder bundle --to build/robots.zip")
     bundle.add_argument("--to", metavar="FILE", default="robots.zip", help="file to write (default: robots.zip)")
@@ -460,6 +481,36 @@ def _grade(options) -> int:
     return int(any(result.status == "failed" for result in results))
 
 
+def _watch(options) -> int:
+    from autograder.grading.errors import CourseError
+    from autograder.grading.pipeline import grade
+    from autograder.grading.table import changes_table, class_table, progress_bar
+    from autograder.grading.watch import arrivals
+
+    course, jobs = _course(options), options.jobs or os.cpu_count() or 1
+    for exercise in options.exercise:
+        course.require(exercise)
+
+    def graded(waiting) -> None:
+        for exercise, students in waiting.items():
+            try:
+                with progress_bar(f"grading {exercise}", len(students)) as progress:
+                    results = grade(course, exercise, students, jobs, False, progress)
+            except CourseError as reason:
+                print(f"autograder: {exercise}: {reason}", file=sys.stderr)
+            else:
+                if new := [result for result in results if result.status != "unchanged"]:
+                    class_table(new)
+                changes_table(results)
+
+    there = {exercise: course.students(exercise) for exercise in options.exercise or course.exercises()}
+    graded({exercise: students for exercise, students in there.items() if students})
+    print(f"watching {course.step('submitted')}; Ctrl-C stops", flush=True)
+    for waiting in arrivals(course, options.exercise):
+        graded(waiting)
+    return 0
+
+
 def _explain(options) -> int:
     from pathlib import Path
 
@@ -540,6 +591,27 @@ def _export(options) -> int:
     with stock_gradebook(course.db_url, course.app.coursedir.course_id) as gradebook:
         GradesAndNotes(parent=course.app).export(gradebook)
     print(target)
+    return 0
+
+
+def _archive(options) -> int:
+    from pathlib import Path
+
+    from autograder.grading.archive import archive, clear
+    from autograder.grading.errors import CourseError
+
+    target, course = Path(options.file).absolute(), _course(options)
+    names = archive(course, target)
+    print(f"{target}: {len(names)} files")
+    if options.clear:
+        print("Gradebook, submissions, feedback and roster are removed from the course now.", file=sys.stderr)
+        if not options.yes:
+            if not sys.stdin.isatty():
+                raise CourseError("nothing was removed; say --yes if that is what you want")
+            if input("Remove? [y/N] ").strip().lower() not in ("y", "yes"):
+                return 0
+        clear(course)
+        print("removed; run: autograder release")
     return 0
 
 
