@@ -19,5 +19,6 @@ explain        how one verdict came about; changes: whose points moved when grad
 returning      grades and pages as platforms take them back
 report/        the class report
 points         what a question is worth
+watch, archive what arrives; a term in one zip
 release, bundle, doctor    the other commands; table shows results and report in a terminal
 """

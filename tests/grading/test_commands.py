@@ -32,14 +32,18 @@ def run(root, *words):
 
 COMMANDS = (
     "release",
+    "points",
     "roster",
+    "allow",
     "collect",
     "grade",
+    "watch",
     "explain",
     "feedback",
     "return",
     "report",
     "export",
+    "archive",
     "bundle",
     "doctor",
 )
