@@ -70,6 +70,18 @@ def test_lectures_need_no_grader(path):
     assert "autograder" not in source and "nbgrader" not in source
 
 
+ANSWER = re.compile(r"\n\n<details><summary>Answer</summary>\n\n(.+?)\n\n</details>(?=\n\n|$)", re.S)
+"""Blank lines on both sides: only then the Markdown inside is laid out."""
+
+
+@pytest.mark.parametrize("path", LECTURES, ids=name)
+def test_every_try_has_an_answer_that_unfolds_below_it(path):
+    for cell in read(path).cells:
+        if cell.cell_type == "markdown":
+            for tried in re.split(r"\*\*Try[.:]", cell.source)[1:]:
+                assert len(ANSWER.findall(tried)) == tried.count("<details>") == 1, f"{cell.id}: {tried}"
+
+
 @pytest.mark.parametrize("path", LECTURES, ids=name)
 def test_names_of_formulas_are_typeset(path):
     """SymPy makes an index of what follows a low line; a name in braces it leaves to LaTeX."""
