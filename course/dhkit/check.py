@@ -121,8 +121,9 @@ def _notice(question: public.PublicQuestion, node: object, function: Callable | 
         missed = sum(line.holds is False for line in lines)
         status = "handed in" if not missed else f"handed in, but {missed} of {len(lines)} checks fail"
         return Notice(question.title, status, (*lines, Line(None, found.text)))
-    said = found.text if found.state == "mistake" else f"{found.text[0].upper()}{found.text[1:]}."
-    return Notice(question.title, "not right yet", (*lines, Line(False, said)))
+    if found.text:
+        lines.append(Line(False if found.state == "mistake" else None, found.text))
+    return Notice(question.title, "not right yet", tuple(lines))
 
 
 def _precision(form: Form) -> str:

@@ -101,7 +101,8 @@ class Progress:
         return (
             f"<div><b>{html.escape(self._summary())}</b>"
             f'<div style="display:flex;height:0.7em;max-width:30em;border:1px solid #888;margin:0.4em 0">{bar}</div>'
-            "<table><thead><tr><th>question</th><th>points</th><th>state</th><th>expected time</th></tr></thead>"
+            "<table><thead><tr><th style='text-align:left'>question</th><th>points</th>"
+            "<th style='text-align:left'>state</th><th>expected time</th></tr></thead>"
             f"<tbody>{rows}</tbody></table></div>"
         )
 

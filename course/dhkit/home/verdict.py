@@ -19,7 +19,6 @@ from .envelopes import Opened, SealedExercise, SealedQuestion, find, lock_of, op
 State = Literal["right", "mistake", "partly", "not_right", "undecided", "form", "blank"]
 
 UNDECIDED = "whether it is right is decided by the grader"
-NOT_RIGHT = "not right yet"
 SOLUTION = "solution"
 MOST_PARTS = 8
 """Parts of a wrong answer that are tried."""
@@ -121,7 +120,7 @@ def _of_function(
         lambda theirs: mine.shape == theirs.shape and bool((np.abs(mine - theirs) <= here.sight.tolerance).all()),
     )
     if found.state in ("not_right", "partly") and trouble:
-        return Verdict(found.state, found.note, found.share, f"{found.text}; {trouble}")
+        return Verdict(found.state, found.note, found.share, "; ".join(filter(None, (found.text, trouble))))
     return found
 
 
@@ -135,9 +134,16 @@ def call(function: Callable, form: Form, calls: Sequence[list]) -> tuple[list, s
         except (Exception, SystemExit) as error:
             node, complaint = {"error": ""}, wire.failure(error)
         if complaint and not trouble:
-            trouble = f"for the arguments {', '.join(map(str, args))}: {complaint}"
+            trouble = f"for the arguments {_short(args)[1:-1]}: {complaint}"
         results.append(node)
     return results, trouble
+
+
+def _short(value: object) -> str:
+    """Numbers and lists of them, to four digits."""
+    if isinstance(value, (list, tuple)):
+        return f"[{', '.join(map(_short, value))}]"
+    return f"{value:.4g}" if isinstance(value, float) else f"{value}"
 
 
 def function_parts(form: Form, results: Sequence, cases: Sequence[str], here: SealedQuestion) -> Parts:
@@ -188,11 +194,11 @@ def _opened(
     others = [part for part in parts if part][:MOST_PARTS]
     right = [part for part in others if any(opened(part))]
     if not right:
-        return Verdict("not_right", text=NOT_RIGHT)
+        return Verdict("not_right")
     if kind_of(right[0]) == SOLUTION:
-        count = f"{len(right)} of your {len(others)} solutions {'is' if len(right) == 1 else 'are'} right"
-        return Verdict("partly", text=f"{NOT_RIGHT}; {count}")
-    return Verdict("partly", text=f"{NOT_RIGHT}; right already: {', '.join(right)}")
+        are = "is" if len(right) == 1 else "are"
+        return Verdict("partly", text=f"{len(right)} of your {len(others)} solutions {are} right")
+    return Verdict("partly", text=f"right already: {', '.join(right)}")
 
 
 def kind_of(part: str) -> str:
