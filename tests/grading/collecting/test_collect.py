@@ -3,6 +3,7 @@
 import io
 import re
 import struct
+import unicodedata
 import zipfile
 from datetime import timedelta
 
@@ -135,6 +136,47 @@ def test_times_of_handing_in_become_time_stamps(downloads, collect, root):
 def test_times_that_only_tell_of_the_download_become_none(downloads, collect, root):
     collect(downloads.canvas([student(downloads, f"Ann {letter}", right(downloads, letter)) for letter in "abc"]))
     assert not list(root.rglob("timestamp.txt"))
+
+
+@pytest.mark.parametrize("platform", ["moodle", "canvas"])
+def test_a_file_that_was_added_to_a_download_later_makes_nobody_late(platform, downloads, collect, root):
+    people = [student(downloads, f"Ann {letter}", right(downloads, letter)) for letter in "abcdefgh"]
+    packed = downloads.moodle(people, real_times=False) if platform == "moodle" else downloads.canvas(people)
+    path = "Ben B_4800_assignsubmission_file_/scara.ipynb" if platform == "moodle" else "bben_4800_9_scara.ipynb"
+    later = downloads.zipped({path: right(downloads)}, times={path: downloads.START + timedelta(days=3)})
+    made = zipfile.ZipFile(file := io.BytesIO(packed), "a")
+    with zipfile.ZipFile(io.BytesIO(later)) as other:
+        made.writestr(other.infolist()[0], other.read(path))
+    made.close()
+    assert len(collect(file.getvalue())) == 9
+    assert not list(root.rglob("timestamp.txt"))
+
+
+def test_an_unreadable_file_later_does_not_take_what_is_there(downloads, collect, root):
+    collect(downloads.moodle([student(downloads, "Ann A", right(downloads, "ann"))]))
+    (row,) = collect(downloads.moodle([student(downloads, "Ann A", b"{", hours={"scara.ipynb": 99})]))
+    assert row.status == "kept" and "unreadable this time" in row.remarks[0]
+    assert handed_in(root, "Ann A") == right(downloads, "ann")
+
+
+def test_a_download_that_went_through_a_mac(downloads, collect, root):
+    (root / "students.csv").write_text("id,last_name,first_name\nfrançois,Élie,François\n", encoding="utf-8")
+    name = unicodedata.normalize("NFD", "François Élie")
+    assert statuses(collect(downloads.moodle([student(downloads, name, right(downloads))]))) == {
+        "françois": "collected"
+    }
+    (root / "students.csv").unlink()
+    assert unicodedata.normalize("NFC", name) in statuses(
+        collect(downloads.moodle([student(downloads, name, right(downloads))], first=9))
+    )
+
+
+def test_names_that_make_the_same_folder_stay_two(downloads, collect, root):
+    contents = [right(downloads, who) for who in "ab"]
+    made = downloads.zipped({"class/Ann <A>/scara.ipynb": contents[0], "class/Ann A/scara.ipynb": contents[1]})
+    rows = collect(made)
+    assert len({row.student for row in rows}) == 2
+    assert {handed_in(root, row.student) for row in rows} == set(contents)
 
 
 WORKSHEET = """Identifier,Full name,Email address,Status,Grade,Maximum grade,Grade can be changed,Last modified (submission),Last modified (grade)
@@ -405,3 +447,24 @@ def test_encodings_of_editors_are_read(encoding, downloads, collect, root):
     collect(downloads.moodle([student(downloads, "Ann A", text.encode(encoding, "ignore"))]))
     found = handed_in(root, "Ann A").decode("utf-8-sig")
     assert found == text.encode(encoding, "ignore").decode(encoding).removeprefix("\ufeff")
+
+
+@pytest.mark.parametrize(
+    "download, paths, names",
+    [
+        ("all.zip", ["Ann A/scara.ipynb", "Ben B/scara.ipynb"], ["Ann A", "Ben B"]),
+        ("all.zip", ["class/Ann A/scara.ipynb", "class/Ben B/x/scara.ipynb"], ["Ann A", "Ben B"]),
+        ("all.zip", ["2026/class/Ann A/scara.ipynb", "2026/class/Ben B/scara.ipynb"], ["Ann A", "Ben B"]),
+        ("all.zip", ["submitted/ann/scara/scara.ipynb", "submitted/ben/scara/scara.ipynb"], ["ann", "ben"]),
+        ("all.zip", ["scara/Ann A/scara.ipynb", "scara/Ben B/scara.ipynb"], ["Ann A", "Ben B"]),
+        ("Ann A.zip", ["scara/scara.ipynb"], ["Ann A"]),
+        ("Ann A.zip", ["exercises/scara/scara.ipynb"], ["Ann A"]),
+        ("Ann A.zip", ["scara.ipynb"], ["Ann A"]),
+        ("all.zip", ["Ann A/scara/scara.ipynb"], ["Ann A"]),
+        ("all.zip", ["all/Ann A/scara.ipynb"], ["Ann A"]),
+    ],
+)
+def test_a_plain_zip_is_read_by_its_folders(download, paths, names, downloads, collect, root):
+    path = root.parent / download
+    path.write_bytes(downloads.zipped({one: right(downloads, one) for one in paths}))
+    assert statuses(collect(path)) == dict.fromkeys(names, "collected")
