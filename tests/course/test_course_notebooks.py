@@ -91,6 +91,17 @@ def test_names_of_formulas_are_typeset(path):
                 assert " " not in shown or "{" in shown, f"{cell.id}: {shown}"
 
 
+@pytest.mark.parametrize("path", LECTURES + SOLUTIONS, ids=name)
+def test_items_of_a_numbered_list_begin_their_lines(path):
+    for cell in read(path).cells:
+        if cell.cell_type == "markdown":
+            assert not re.search(r"^\s*1\. .*\s2\. ", cell.source, re.M), cell.id
+            for number in map(int, re.findall(r"\S\n *([2-9])\. ", cell.source)):
+                assert re.search(rf"^ *{number - 1}\. ", cell.source, re.M), (
+                    f"{cell.id}: {number}. without {number - 1}."
+                )
+
+
 @pytest.mark.parametrize("path", SOLUTIONS, ids=name)
 def test_every_question_is_asked_once_in_the_exact_form(path):
     notebook = read(path)

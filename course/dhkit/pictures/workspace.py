@@ -92,7 +92,7 @@ def show_reach_range(reach, lengths, ranges=((0.5, 2.4), (-1.2, 2.2), (1.8, 4.4)
             ax.axhline(value, color=AXIS_COLOURS["x"], lw=1.5, ls=dashes)
         ax.set_title(f"{np.degrees(low):.0f}° to {np.degrees(high):.0f}°".replace("-", "\N{MINUS SIGN}"), fontsize=10)
         ax.set(xlabel=r"$\theta_2$ (degrees)", ylim=(0, 1.2 * sum(lengths)), xticks=range(-180, 361, 180))
-    panels[0].set_ylabel("distance (m); your limits in red")
+    panels[0].set_ylabel("distance (m); your limits in orange")
     return panels[-1]
 
 
