@@ -199,9 +199,14 @@ def draw_radius(lengths, t2_limits=None, ax=None):
     ax.set_ylim(0, 1.15 * (l1 + l2))
     ax.set_xticks(range(-180, 181, 60))
     ax.grid(True)
-    for r, name, clear in ((l1 + l2, "$L_1 + L_2$", -150), (abs(l1 - l2), "$|L_1 - L_2|$", 0)):  # where the curve is far
+    for r, name, clear in (
+        (l1 + l2, "$L_1 + L_2$", -150),
+        (abs(l1 - l2), "$|L_1 - L_2|$", 0),
+    ):  # where the curve is far
         ax.axhline(r, color=SOFT, lw=0.9, ls=LIMIT_DASHES, zorder=1)
-        ax.annotate(name, (clear, r), xytext=(0, 3), textcoords="offset points", ha="center", fontsize=9, color="#555555")
+        ax.annotate(
+            name, (clear, r), xytext=(0, 3), textcoords="offset points", ha="center", fontsize=9, color="#555555"
+        )
     if t2_limits is not None:
         low, high = as_numbers(t2_limits, "t2_limits", (2,))
         if not -np.pi - 1e-9 <= low < high <= np.pi + 1e-9:
