@@ -130,3 +130,81 @@ def distinct(postures, tolerance=1e-6) -> list:
         if not any(abs(np.exp(1j * np.array(q)) - np.exp(1j * np.array(other))).max() < tolerance for other in kept):
             kept.append(q)
     return kept
+
+
+def test_01_the_slide_leaves_the_normal_alone_and_the_turn_only_lifts_it():
+    feet = lecture("01")["feet"]
+    for slide in (-0.3, 0.4):
+        for turn in np.radians([-50, 1, 10, 70]):
+            along = np.array([0, -np.sin(turn), np.cos(turn)])
+            foot, other = feet((0, 0, 0.5), (0, 0, 1), (1, 0.3, 0.4) + slide * along, along)
+            assert np.allclose(foot, (0, 0, 0.4 + 0.3 / np.tan(turn))) and np.hypot(
+                *(other - foot)[:2]
+            ) == pytest.approx(1)
+    with pytest.raises(np.linalg.LinAlgError, match="Singular"):
+        feet((0, 0, 0), (0, 0, 1), (0.3, 0.4, 0.9), (0, 0, 1))
+
+
+def test_03_the_printed_wrist_has_two_freedoms_and_the_repaired_one_three():
+    names = lecture("03")
+    freedoms, wrist, posed = names["freedoms"], names["wrist"], names["posed"]
+    assert [freedoms(names["wrist_printed"], posed), freedoms(wrist, posed), freedoms(wrist, posed | {"t5": 0})] == [
+        2,
+        3,
+        2,
+    ]
+
+
+def test_04_with_axes_3_and_4_down_three_signs_turn():
+    names = lecture("04")
+    T, a3, d2, t4 = (names[name] for name in ("T", "a3", "d2", "t4"))
+    half_turn = names["rot_x"](names["pi"])
+    down = T(a3, names["pi"], d2, 0) * T(0, 0, 0, -t4)
+    assert names["simplify"](down - T(a3, 0, -d2, 0) * T(0, 0, 0, t4) * half_turn) == names["zeros"](4)
+
+
+@pytest.mark.parametrize("distance, height, count", [(0.3, 0.5, 8), (0.54, 0.72, 4), (0.74, 0.5, 8), (0.76, 0.5, 0)])
+def test_08_postures_of_the_rx90_inside_on_and_outside_its_sphere(distance, height, count):
+    names = lecture("08")
+    pose = names["U"].copy()
+    pose[:3, 3] = distance * np.cos(0.35), distance * np.sin(0.35), height
+    assert len(names["inverse_rx90"](pose)) == count
+
+
+def test_10_what_the_pen_does_in_the_tries():
+    names = lecture("10")
+    pen_tip, sizes = names["pen_tip"], names["PEN_SIZES"]
+    for turn in (-90, 0, 100):
+        assert np.allclose(pen_tip(np.radians([-25, 30 + turn, 75 - turn])), (0.557, -0.017, 0.243), atol=5e-4)
+    special = sizes | {"L1": 0.0}
+    point = pen_tip(np.radians([35, 20, 45]), special)
+    found = names["inverse"](*point, sizes=special)
+    assert np.allclose(np.degrees(found), [(35, 65), (-49.373, -65)], atol=1e-3)
+    assert all(np.allclose(pen_tip([theta1, phi, 0], special), point) for theta1, phi in found)
+    right = names["follow"](names["eight"])
+    for wrong, low, high in ((right + (np.radians(1), 0, 0), 9.2, 9.9), (right * (1, 1, -1), 240, 388)):
+        miss = 1000 * np.linalg.norm(pen_tip(wrong) - names["eight"], axis=1)
+        assert low < miss.min() and miss.max() < high
+    assert np.hypot(sizes["h2"] + sizes["L2"], sizes["L1"]) == pytest.approx(0.372, abs=5e-4)
+    assert sizes["h1"] - sizes["p1"] == pytest.approx(0.08)
+
+
+def test_11_what_the_legs_notice_in_the_tries():
+    names = lecture("11")
+    legs, start, modes = names["leg_lengths"], np.array([0.55, 0.6, 0.35]), names["modes"]
+    assert np.allclose(legs(*(start + (0, 0, 0.1))) - legs(*start), (0.014, 0.021, -0.020), atol=5e-4)
+    one_motor = legs(*(start + (0, 0.0057, -0.0277))) - legs(*start)
+    assert abs(one_motor[:2]).max() < 0.3e-3 and one_motor[2] == pytest.approx(0.010, abs=2e-4)
+    C = names["meeting_point"](modes[2])
+    wide, narrow = (legs(*names["turned_about"](modes[2], C, angle)) - legs(*modes[2]) for angle in (0.02, 0.01))
+    assert np.allclose(wide / narrow, (4, 4, 2), atol=0.01)
+
+
+def test_12_with_axis_3_down_the_last_angle_keeps_its_sign():
+    names = lecture("12")
+    T, r, t4 = names["T"], names["r3"] + names["r30"], names["t4"]
+    down = T(names["d3"], names["sympy"].pi, -r, 0) * T(0, 0, 0, t4)
+    assert names["simplify"](down - names["T24"]) == names["sympy"].zeros(4)
+    at_start = [np.degrees(q[3]) for q in names["mgi"](0.33, 0.43, -0.1, np.radians(60))]
+    assert sorted(at_start) == pytest.approx([-35.3, 20.3], abs=0.05)
+    assert [len(names["mgi"](x, y, 0, 0)) for x, y in ((0.36, 0.48), (0.03, 0.04))] == [1, 1]
