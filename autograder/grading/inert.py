@@ -17,6 +17,7 @@ MAX_NESTING = 100  # tags within tags; what reads the page later on needs time w
 PICTURES = ("image/png", "image/jpeg", "image/gif", "image/webp")
 """Pictures that can be pasted into a cell; SVG is not among them, as it is a program of its own."""
 
+_FORMULA = ("=", "+", "-", "@", "\t", "\r")
 _SHOWN = ("text/plain", "text/latex", "image/svg+xml", "image/png", "image/jpeg")
 BASE64 = re.compile(r"[A-Za-z0-9+/=\s]*\Z")
 _CONTROL = re.compile(
@@ -34,9 +35,14 @@ def spreadsheet_cell(value: object) -> object:
     """`value` for a spreadsheet: a text that a spreadsheet would take for a formula gets an apostrophe."""
     if value is None:
         return ""
-    if isinstance(value, str) and value[:1] in ("=", "+", "-", "@", "\t", "\r"):
+    if isinstance(value, str) and value[:1] in _FORMULA:
         return f"'{value}"
     return value
+
+
+def from_spreadsheet(text: str) -> str:
+    """A text as it was before `spreadsheet_cell`."""
+    return text[1:] if text[:1] == "'" and text[1:2] in _FORMULA else text
 
 
 def inert_outputs(outputs: Iterable, count: int) -> list[NotebookNode]:

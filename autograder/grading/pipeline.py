@@ -72,6 +72,7 @@ def grade(
     sweep()
     names = notebook_names(converter)
     runner = SandboxExecute(parent=converter)
+    before = _stored(course, exercise)
     _bring_up_dates(course, exercise, converter)
     stored = _stored(course, exercise)
     status: dict[str, str] = {}
@@ -104,7 +105,7 @@ def grade(
             with _noting(failures, student):
                 _store(course, student, future.result())
             progress(student)
-    before, stored = stored, _stored(course, exercise)
+    stored = _stored(course, exercise)
     unusable = [
         Result(terminal_text(name), exercise, "failed", remarks=(reason,))
         for name, reason in course.unusable_folders(exercise).items()
@@ -142,9 +143,8 @@ def _compared(
     points: Mapping[str, float],
 ) -> Result:
     """A result with what moved since the time before."""
-    if result.status != "graded":
-        return result
-    return replace(result, moved=moved(before, after, points), by_hand=by_hand(before, after, points))
+    kept = by_hand(before, after, points) if result.status == "graded" else ()
+    return replace(result, moved=moved(before, after, points), by_hand=kept)
 
 
 def _bring_up_dates(course: Course, exercise: str, converter: SubmissionAutograde) -> None:

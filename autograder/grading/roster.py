@@ -19,6 +19,7 @@ from dhkit.variants import normal_form
 
 from .errors import CourseError
 from .folders import why_unusable
+from .inert import from_spreadsheet, spreadsheet_cell
 
 FILE = "students.csv"
 _LISTS = ("groups", "extensions", "exempt")
@@ -147,7 +148,7 @@ def read_roster(root: Path) -> Roster:
 
 
 def _person(cells: dict[str, str]) -> Person:
-    values: dict[str, Any] = {name: cells.get(name, "").strip() for name in COLUMNS}
+    values: dict[str, Any] = {name: from_spreadsheet(cells.get(name, "").strip()) for name in COLUMNS}
     for name in _LISTS:
         values[name] = tuple(filter(None, map(str.strip, values[name].split(";"))))
     return Person(**values)
@@ -160,7 +161,7 @@ def roster_text(people: Iterable[Person]) -> str:
     writer.writerow(COLUMNS)
     for person in people:
         values = (getattr(person, name) for name in COLUMNS)
-        writer.writerow("; ".join(value) if isinstance(value, tuple) else value for value in values)
+        writer.writerow(spreadsheet_cell("; ".join(value) if isinstance(value, tuple) else value) for value in values)
     return file.getvalue()
 
 

@@ -76,6 +76,7 @@ def test_the_roster_survives_its_own_file(tmp_path):
     )
     saved(tmp_path, "students.csv", roster_text(people), "utf-8-sig")
     assert read_roster(tmp_path).people == people
+    assert '\n"\'=x, y",' in roster_text(people), "a spreadsheet takes no name for a formula"
 
 
 def test_two_platforms_make_one_line_and_the_lecturers_columns_stay(tmp_path):

@@ -10,8 +10,12 @@ import pytest
 from nbgrader.api import Gradebook
 
 from autograder import cli
+from autograder.grading.course import convert, open_course
 from autograder.grading.errors import CourseError
+from autograder.grading.gradebook import reading
+from autograder.grading.plugins.autograde import SubmissionAutograde
 from autograder.grading.roster import Person, Roster
+from autograder.grading.store import stored_notebooks
 from autograder.grading.term import Deadlines, Late, Term, deadlines, read_term
 
 TERM = """
@@ -120,6 +124,7 @@ def test_more_time_counts_without_running_anything_again(late, without_kernels, 
     assert "ben: scara=+2d" in capsys.readouterr().out
     found = graded(late, without_kernels, capsys)
     assert {line["status"] for line in found.values()} == {"unchanged"} and found["ben"]["score"] == 4
+    assert found["ben"]["moved"] == ["points off for being late: 0.8 -> 0"] and found["ann"]["moved"] == []
     assert "late by" not in (late / "feedback/ben/scara/scara.html").read_text()
     assert cli.main(["allow", "ben", "scara", "--nothing", "--course", str(late)]) == 0
     assert graded(late, without_kernels, capsys)["ben"]["score"] == 3.2
@@ -171,3 +176,14 @@ def test_a_due_date_of_no_exercise_is_refused(late, without_kernels, capsys):
     with without_kernels():
         assert cli.main(["grade", "scara", "--course", str(late)]) == 2
     assert re.search("no exercise 'sacra'", capsys.readouterr().err)
+
+
+def test_the_stock_command_reckons_with_the_same_dates(late, without_kernels):
+    (late / "students.csv").write_text("id,extensions\nann,\nben,scara=+1h\n")
+    course = open_course(late)
+    course.choose("scara")
+    with without_kernels():
+        convert(SubmissionAutograde(coursedir=course.app.coursedir, parent=course.app))
+    with reading(course.db_url) as session:
+        stored = stored_notebooks(session, "scara")
+    assert {student: one.penalty for (student, _), one in stored.items()} == {"ann": 0, "ben": 0.4, "cid": 0}

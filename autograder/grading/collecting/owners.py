@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -40,7 +41,12 @@ def owners(
         (one.platform, one.number): student for student, one in receipts.items() if one.number
     }
     found = {key: _owner(_first(group), roster, people) for key, group in groups.items()}
-    unsure = [key for key, owner in found.items() if owner is None or _is_taken(key, owner, found)]
+    count = Counter((key[0], normal_form(owner.student)) for key, owner in found.items() if owner is not None)
+    unsure = [
+        key
+        for key, owner in found.items()
+        if owner is None or (not owner.sure and count[key[0], normal_form(owner.student)] > 1)
+    ]
     claims = {key: _claimed(groups[key], roster) for key in unsure}
     owned: dict[str, tuple[list[Key], tuple[str, ...]]] = {}
     for key, owner in found.items():
@@ -79,17 +85,6 @@ def _owner(whose: Sender, roster: Roster, people: Mapping[str, Person]) -> _Owne
     if members:
         return _Owner(_as_id(whose), (f"a group: {', '.join(members)}",))
     return _Owner(_as_id(whose), ("not on the roster",) if roster.people else ())
-
-
-def _is_taken(key: Key, owner: _Owner, found: Mapping[Key, _Owner | None]) -> bool:
-    """Whether somebody else on the same platform is the same for the course, so that a name does not tell."""
-    return not owner.sure and any(
-        other != key
-        and other[0] == key[0]
-        and one is not None
-        and normal_form(one.student) == normal_form(owner.student)
-        for other, one in found.items()
-    )
 
 
 def _first(group: Sequence[Piece]) -> Sender:
