@@ -137,7 +137,7 @@ def report_table(report: ClassReport) -> None:
 def _discrimination(question: QuestionReport) -> str:
     if question.discrimination is not None:
         return f"{question.discrimination:.2f}"
-    return "too few" if question.submissions < ENOUGH else "no spread"
+    return "too few" if question.answered < ENOUGH else "no spread"
 
 
 def _look_at(question: QuestionReport) -> str:

@@ -48,8 +48,10 @@ class QuestionReport:
     ----------
     scores : tuple of float
         Points of each submission.
+    answered : int
+        Submissions with an answer to any question: the others tell nothing about this one.
     discrimination : float or None
-        Correlation of these points with those of the other questions, None where it says nothing.
+        Correlation of their points with those of the other questions, None where it says nothing.
     clusters : tuple of Cluster
         Wrong answers that no misconception explains, the largest cluster first.
     """
@@ -59,6 +61,7 @@ class QuestionReport:
     max_score: float
     scores: tuple[float, ...]
     notes: Counter[str]
+    answered: int
     discrimination: float | None = None
     clusters: tuple[Cluster, ...] = ()
 
@@ -107,8 +110,8 @@ class QuestionReport:
 
     def discrimination_in_words(self) -> str:
         """What the discrimination says, in one sentence."""
-        if len(self.scores) < ENOUGH:
-            return f"too few submissions ({len(self.scores)}; {ENOUGH} are needed)."
+        if self.answered < ENOUGH:
+            return f"too few submissions with answers ({self.answered}; {ENOUGH} are needed)."
         if self.discrimination is None:
             return "no spread: everybody has the same points, here or in all other questions."
         if self.discrimination < 0:
@@ -188,7 +191,8 @@ def class_report(course: Course, exercise: str) -> ClassReport:
 def _question_report(name: str, max_score: float, rows: dict[str, dict], attempts: list[Attempt]) -> QuestionReport:
     rows = {student: row for student, row in rows.items() if name in row}
     scores = tuple(row[name][0] for row in rows.values())
-    rests = [sum(score for other, (score, _) in row.items() if other != name) for row in rows.values()]
+    answered = [row for row in rows.values() if any(note not in NOTHING_CAME for _, note in row.values())]
+    rests = [sum(score for other, (score, _) in row.items() if other != name) for row in answered]
     notes = Counter(row[name][1] for row in rows.values())
     question, public = _question(name), public_questions().get(question_id(name))
     return QuestionReport(
@@ -197,7 +201,8 @@ def _question_report(name: str, max_score: float, rows: dict[str, dict], attempt
         max_score,
         scores,
         notes,
-        discrimination(scores, rests),
+        len(answered),
+        discrimination([row[name][0] for row in answered], rests),
         cluster(question, attempts) if question else (),
     )
 

@@ -15,7 +15,7 @@ from autograder.grading.course import convert, open_course
 from autograder.grading.errors import CourseError
 from autograder.grading.plugins.autograde import SubmissionAutograde
 from autograder.grading.report.page import as_html, tables, write_report
-from autograder.grading.report.statistics import ClassReport, class_report, discrimination
+from autograder.grading.report.statistics import ClassReport, _question_report, class_report, discrimination
 from autograder.grading.submission.execution import Execution
 from autograder.grading.submission.reading import fingerprint
 from autograder.judge import Evidence
@@ -131,6 +131,23 @@ def test_each_question_is_summed_up_over_the_class(report):
     assert first.look_at and second.look_at and not third.look_at
 
 
+def test_files_without_any_answer_do_not_decide_what_a_question_tells():
+    def row(*scores):
+        return {name: (score, "right" if score else "nothing_matched") for name, score in zip(NAMES, scores)}
+
+    answered = {
+        str(n): row(*scores)
+        for n, scores in enumerate([(1, 0, 1), (0, 1, 0), (1, 1, 0), (0, 0, 1), (1, 0, 0), (0, 1, 1)])
+    }
+    nothing = {
+        f"x{n}": dict.fromkeys(NAMES, (0.0, note))
+        for n, note in enumerate(["unreadable", "not_attempted", "no_answer"] * 3)
+    }
+    alone = _question_report("T04", 1.0, answered, [])
+    both = _question_report("T04", 1.0, answered | nothing, [])
+    assert both.discrimination == alone.discrimination < 0 and (both.answered, both.submissions) == (6, 15)
+
+
 def test_equivalent_wrong_answers_stand_together(report):
     first, second, third = report.questions
     assert [(cluster.students, cluster.alike) for cluster in first.clusters] == [
@@ -233,4 +250,6 @@ def test_a_class_of_one(course_copy):
     assert isinstance(report, ClassReport) and report.totals == (14,)
     assert all(question.discrimination is None and not question.look_at for question in report.questions)
     text = " ".join(BeautifulSoup(as_html(report), "html.parser").get_text().split())
-    assert "1 submission, mean 14.0 of 20 points." in text and "too few submissions (1; 5 are needed)" in text
+    assert (
+        "1 submission, mean 14.0 of 20 points." in text and "too few submissions with answers (1; 5 are needed)" in text
+    )
