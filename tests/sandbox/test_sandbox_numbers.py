@@ -19,7 +19,9 @@ print(child.pid, flush=True)
 for line in sys.stdin:
     child.stdin.write(line.encode())
     child.stdin.flush()
-    print(child.stdout.readline().decode(), end="", flush=True)
+    if not (answer := child.stdout.readline()):
+        break
+    print(answer.decode(), end="", flush=True)
 """
 
 
