@@ -7,7 +7,7 @@ right in it anyway earns nothing, and costs something where it is wrong.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
@@ -38,6 +38,19 @@ def _guessed(question: Question, student: str | None) -> float:
     setting = replace(question.setting(), patient=True)
     compared = (compare(question.form, blind, right, setting) for blind in _blind_answers(question.form, right))
     return max((one.share for one in compared if not one.equal), default=0.0)
+
+
+def is_blind(form: Form, answer: Entries, right: Entries, samples: Mapping[str, np.ndarray]) -> bool:
+    """Whether an answer could have been made without reading the question: no slip explains it, whatever it is equal to."""
+    values = answer.values(samples)
+    if not np.isfinite(values).all():
+        return True
+    constant = bool(np.abs(values - values[:1]).max() == 0)
+    if constant and (np.abs(values[0] - values[0, 0]).max() == 0) and (form.symbols or form.shape):
+        return True
+    if form.kind == "expression" and isinstance(answer.expressions[0], Symbol):
+        return True
+    return any(np.array_equal(values, blind.values(samples)) for blind in _blind_answers(form, right))
 
 
 def _blind_answers(form: Form, right: Entries) -> Iterator[Entries]:

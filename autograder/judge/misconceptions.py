@@ -421,19 +421,26 @@ def atan_for_atan2(count: int = 1, **other) -> Mistake:
 
 
 def atan2_arguments_exchanged(count: int = 1, **other) -> Mistake:
-    """atan2(x, y) for atan2(y, x); `count` is the number of different atan2 in the answer, an expression."""
+    """atan2(x, y) for atan2(y, x); `count` is the number of different atan2 in the answer, an expression.
+
+    All of them exchanged turn the sign of a difference: that has two causes, and is left to `slips`.
+    """
     return _on_atan2(
         "atan2_arguments_exchanged",
         0.4,
         "**The arguments of atan2 are exchanged.** The ordinate comes first: atan2(y, x).",
         lambda y, x: sympy.atan2(x, y),
         count,
+        together=False,
         **other,
     )
 
 
-def _on_atan2(note: str, share: float, feedback: str, change: Callable, count: int, /, **other) -> Mistake:
-    places = range(count) if count == 1 else (None, *range(count))
+def _on_atan2(
+    note: str, share: float, feedback: str, change: Callable, count: int, /, together: bool = True, **other
+) -> Mistake:
+    """`together` says whether all of them may be changed at once, as well as each."""
+    places = (*((None,) if together and count > 1 else ()), *range(count))
     steps = (partial(_change_atan2, change=change, which=which) for which in places)
     return _entry(note, share, feedback, *steps, **other)
 

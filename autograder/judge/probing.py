@@ -14,6 +14,7 @@ from .kinds import Comparison, Setting
 from .kinds import compare as compare_answers
 from .question import Question, Way
 from .rounding import decimals_kept, rounded_too_far
+from .slips import explain_results
 from .tree import Verdict, nearest, walk
 from .written import plain, written
 
@@ -35,6 +36,11 @@ def judge_results(question: Question, arguments: list[list], results: Sequence[D
 
     def compare(ways: tuple[Way, ...], turn: float, args: list, result: object) -> Comparison:
         return compare_result(question, student, ways, turn, args, result)
+
+    def beside(args: list, result: object, other: object | None) -> Comparison:
+        if other is None:
+            return compare((), 2 * np.pi, args, result)
+        return _compare_with(question, result, other, question.setting(student, *args))
 
     cases: dict[str, list[Call]] = {}
     for args, raw, result in zip(arguments, results, found, strict=True):
@@ -62,6 +68,7 @@ def judge_results(question: Question, arguments: list[list], results: Sequence[D
         student,
         Comparison(not wrong, _count(answers) / len(cases), remarks),
         lambda ways, turn: all(compare(ways, turn, *call).equal for call in calls),
+        lambda: explain_results(question, calls, student, beside),
     )
     if not wrong:
         return verdict
@@ -89,12 +96,13 @@ def compare_result(
     setting = question.setting() if ways else question.setting(student, *args)
     setting = replace(setting, turn=turn, family=expected.family)
 
-    def beside(other: object) -> Comparison:
-        if isinstance(result, Malformed) or isinstance(other, Malformed):
-            return Comparison(isinstance(result, Malformed) and isinstance(other, Malformed), 0.0)
-        return compare_answers(question.returns, result, other, setting)
+    return nearest(_compare_with(question, result, other, setting) for other in expected.forms)
 
-    return nearest(beside(other) for other in expected.forms)
+
+def _compare_with(question: Question, result: object, other: object, setting: Setting) -> Comparison:
+    if isinstance(result, Malformed) or isinstance(other, Malformed):
+        return Comparison(isinstance(result, Malformed) and isinstance(other, Malformed), 0.0)
+    return compare_answers(question.returns, result, other, setting)
 
 
 def _decimals_kept(question: Question, student: str, call: Call) -> int:

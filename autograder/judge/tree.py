@@ -32,6 +32,15 @@ class Verdict:
     slip: bool = False
 
 
+@dataclass(frozen=True)
+class Slip:
+    """A wrong step that may happen in any question of a kind: its note, its share of the points, its feedback."""
+
+    note: str
+    share: float
+    feedback: str
+
+
 def is_forgivable(verdict: Verdict) -> bool:
     """Whether what follows from an answer may earn points although the answer is wrong.
 
@@ -41,8 +50,14 @@ def is_forgivable(verdict: Verdict) -> bool:
     return verdict.share > 0 and (verdict.note not in UNEXPLAINED or verdict.slip)
 
 
-def walk(question: Question, student: str, against_reference: Comparison, matches: Matches) -> Verdict:
-    """The verdict of the first node that fits.
+def walk(
+    question: Question,
+    student: str,
+    against_reference: Comparison,
+    matches: Matches,
+    explain: Callable[[], Slip | None] = lambda: None,
+) -> Verdict:
+    """The verdict of the first node that fits: a mistake of the question, a slip of its kind, two mistakes of the question.
 
     Parameters
     ----------
@@ -50,6 +65,8 @@ def walk(question: Question, student: str, against_reference: Comparison, matche
         The student's answer beside the right one.
     matches : callable
         Whether the student's answer is the one with mistakes made in the given ways; angles modulo the given turn.
+    explain : callable
+        The slip that may happen in any question of the kind, if it is one.
     """
     if against_reference.equal:
         used = ", ".join(against_reference.remarks)
@@ -59,6 +76,12 @@ def walk(question: Question, student: str, against_reference: Comparison, matche
     for node in question.mistakes:
         if any(_is_match(matches, (way,), node.turn) for way in node.ways):
             return Verdict(node.share, node.note, _fill_in(node.feedback, numbers))
+    share = min(question.partial, against_reference.share)
+    slip = _explained(explain)
+    # A name never costs points.
+    explained = slip and Verdict(max(share, slip.share), slip.note, slip.feedback)
+    if explained and "+" not in explained.note:
+        return explained
     for pair in permutations(range(_pairable(question)), 2):
         first, second = (question.mistakes[place] for place in pair)
         turn = max(first.turn, second.turn)
@@ -69,11 +92,20 @@ def walk(question: Question, student: str, against_reference: Comparison, matche
             note = "+".join(sorted((first.note, second.note)))
             feedback = "\n\n".join(_fill_in(node.feedback, numbers) for node in (first, second))
             return Verdict(first.share * second.share, note, feedback)
-    share = min(question.partial, against_reference.share)
+    if explained:
+        return explained
     what = "; ".join(against_reference.remarks) or "the answer differs from the right one"
     note = against_reference.note or ("partly_right" if share > 0 else "nothing_matched")
     feedback = f"**{'Partly right' if share > 0 else 'Not right'}.** {what[0].upper()}{what[1:]}."
     return Verdict(share, note, feedback, against_reference.slip)
+
+
+def _explained(explain: Callable[[], Slip | None]) -> Slip | None:
+    """What `explain` finds; nothing where a slip cannot be made on what was handed in."""
+    try:
+        return explain()
+    except IMPOSSIBLE:
+        return None
 
 
 def _pairable(question: Question) -> int:

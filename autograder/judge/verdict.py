@@ -21,6 +21,7 @@ from .kinds.entries import depends_on
 from .probing import judge_results
 from .question import Question, Way
 from .rounding import decimals_kept, rounded_too_far
+from .slips import explain_answer, locate
 from .tree import Verdict, nearest, walk
 from .written import plain
 
@@ -64,7 +65,8 @@ def judge(
         typed = decode_student(evidence.packet)
         if _is_blank(question.form, answer):
             return _explain_blank(evidence)
-        verdict = _judge_answer(question, evidence, answer, student, earlier or {})
+        with np.errstate(all="ignore"):  # whatever is not finite is wrong, and needs no warning
+            verdict = _judge_answer(question, evidence, answer, student, earlier or {})
         if verdict.share < 1 and typed is not None and normal_form(typed) != normal_form(student):
             return _judge_for_another(question, evidence, answer, typed) or verdict
         return verdict
@@ -127,6 +129,8 @@ def _judge_data(question: Question, decoded: Decoded, student: str, earlier: Map
 
     def beside_reference(given: object, asked: Setting) -> Comparison:
         expected = expect_answer(question, (), student)
+        # A table is met in any frames only where it is compared with patience.
+        asked = replace(asked, family=expected.family, patient=form.kind == "dh_table")
         return nearest(compare_answers(form, given, other, asked) for other in expected.forms)
 
     def compare(ways: tuple[Way, ...], turn: float) -> Comparison:
@@ -144,7 +148,15 @@ def _judge_data(question: Question, decoded: Decoded, student: str, earlier: Map
         return Verdict(1.0, "right_from_earlier", FORGIVEN)
     if not against_reference.equal and (places := decimals_kept(form, answer, setting, beside_reference)) is not None:
         return rounded_too_far(form, places)
-    return walk(question, student, against_reference, lambda ways, turn: compare(ways, turn).equal)
+    if not against_reference.remarks and question.places and (place := locate(question, answer, student, setting)):
+        against_reference = replace(against_reference, remarks=(place,))
+    return walk(
+        question,
+        student,
+        against_reference,
+        lambda ways, turn: compare(ways, turn).equal,
+        lambda: explain_answer(question, answer, student, setting, lambda changed: beside_reference(changed, setting)),
+    )
 
 
 def _follows(

@@ -62,10 +62,12 @@ def test_a_complaint_about_the_form_is_told_where_other_results_are_well_formed(
 
 def test_every_entry_that_differs_is_told():
     question = find("transforms.parameters")
-    found = verdict(question, some(question, lambda k, result: [result[0], -result[1], result[2], -result[3]]))
+    found = verdict(
+        question, some(question, lambda k, result: [result[0], result[1] + 0.3, result[2], result[3] - 0.2])
+    )
     assert "alpha and theta" in found.feedback
-    exchanged = find("workspace.reach")
-    found = verdict(exchanged, some(exchanged, lambda k, result: result[::-1]))
+    both = find("workspace.reach")
+    found = verdict(both, some(both, lambda k, result: [result[0] + 0.1, result[1] + 0.3]))
     assert "r_min and r_max" in found.feedback
 
 

@@ -9,9 +9,9 @@ import numpy as np
 
 from dhkit.forms.dh_table import DH_COLUMNS, DHTable
 
-from ..chain import SAME_MODEL, JudgedChain, NotAChain, same_chain
+from ..chain import JudgedChain, NotAChain, same_chain
 from ..chain.freedoms import Pins
-from ..chain.senses import agreeing_cells
+from ..chain.senses import agreeing, best_senses, in_senses
 from ..decode import Blank
 from .base import Comparison, Setting
 from .entries import Entries, agreement, depends_on, listed
@@ -20,28 +20,42 @@ from .entries import read_entries as read
 __all__ = ["compare", "read"]
 
 WIDTH = len(DH_COLUMNS)
+IN_OUR_FRAMES = "in our frames"
 
 
 def compare(form: DHTable, student: Entries, other: Entries, setting: Setting) -> Comparison:
-    """Two tables are equal when they describe the same chain without using a freedom that the question pins."""
+    """Two tables are equal when they describe the same chain without using a freedom that the question pins.
+
+    A mistaken table (not ``setting.patient``) is met cell by cell, as it is written or in the senses in which the student's
+    is nearest to the right one: another mistake may well give the same chain.
+    """
     cells = _compare_cells(student, other, setting)
     if cells.equal:
         return cells
+    if not setting.patient:
+        ours = student.kept(IN_OUR_FRAMES, setting.samples)
+        return Comparison(
+            ours is not None and bool(agreeing(ours, rows_of(other, setting), setting.tolerance).all()), 0.0
+        )
     mine, theirs = (_chain(entries, form, setting) for entries in (student, other))
     if mine is None or theirs is None:
         return _differing(student, other, setting)
-    if not setting.patient and _ends_apart(mine, theirs, setting):
-        return cells
     match = same_chain(mine, theirs, pinned=setting.pinned)
     if match.equal:
-        still = _sigma_without_joint(student, form, setting) if setting.patient else []
+        still = _sigma_without_joint(student, form, setting)
         if still:
             remarks = tuple(f"row {row} holds no joint: its sigma is 0" for row in still)
             return replace(_differing(student, other, setting), remarks=remarks)
         return Comparison(True, 1.0, tuple(f"another {used}" for used in match.freedoms))
+    differing = _differing(student, other, setting)
     if match.parting:
-        return _differing(student, other, setting)
+        return differing
     return Comparison(False, 1.0, match.remarks, "same_chain_other_frames")
+
+
+def rows_of(entries: Entries, setting: Setting) -> np.ndarray:
+    """The values of a table, (N, n, 5)."""
+    return entries.values(setting.samples).reshape(-1, len(entries.expressions) // WIDTH, WIDTH)
 
 
 def _sigma_without_joint(entries: Entries, form: DHTable, setting: Setting) -> list[int]:
@@ -67,14 +81,6 @@ def _chain(entries: Entries, form: DHTable, setting: Setting) -> JudgedChain | N
     return entries.once("chain", setting.samples, read)
 
 
-def _ends_apart(mine: JudgedChain, theirs: JudgedChain, setting: Setting) -> bool:
-    """A cheap no: where base, tool and joint variables are pinned, the hands must be in the same place at q = 0."""
-    if not setting.pinned >= SAME_MODEL:
-        return False
-    size = max(1.0, float(np.abs(theirs.end).max()))
-    return bool(np.abs(mine.end - theirs.end).max() > 10 * setting.tolerance * size)
-
-
 def _compare_cells(student: Entries, other: Entries, setting: Setting) -> Comparison:
     is_angle = [name in ("alpha", "theta") for name in DH_COLUMNS] * (len(student.expressions) // WIDTH)
     agree = agreement(student, other, setting, is_angle)
@@ -83,11 +89,10 @@ def _compare_cells(student: Entries, other: Entries, setting: Setting) -> Compar
 
 def _differing(student: Entries, other: Entries, setting: Setting) -> Comparison:
     """What differs in a table of another chain: whichever way its author drew the axes, the fewest cells."""
-    if not setting.patient:
-        return Comparison(False, 0.0)
-    theirs, ours = (entries.values(setting.samples).reshape(-1, len(entries.expressions) // WIDTH, WIDTH)
-                    for entries in (student, other))  # fmt: skip
-    agree = agreeing_cells(theirs, ours, Pins(setting.pinned), setting.tolerance)
+    theirs, ours = rows_of(student, setting), rows_of(other, setting)
+    senses = best_senses(theirs, ours, Pins(setting.pinned), setting.tolerance)
+    theirs = student.once(IN_OUR_FRAMES, setting.samples, lambda: in_senses(theirs, senses))
+    agree = agreeing(theirs, ours, setting.tolerance)
     blank = np.array([isinstance(entry, Blank) for entry in student.expressions]).reshape(agree.shape)
     right = agree.all(axis=1)
     note = "one_cell" if (~agree).sum() == 1 else ""

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -73,6 +73,11 @@ class Entries:
         if (kept := self._kept.get(what)) is None or kept[0] is not samples:
             kept = self._kept[what] = samples, make()
         return kept[1]
+
+    def kept(self, what: str, samples: Mapping[str, np.ndarray]) -> Any:
+        """What was made `once` for the same sample points, None if it was not."""
+        known = self._kept.get(what)
+        return known[1] if known is not None and known[0] is samples else None
 
 
 def flat(value: Value) -> tuple:

@@ -106,6 +106,11 @@ QUESTIONS = (
                 0.7,
                 "**Case c: on the limit of reach two postures are one.** Compute the distance of the target from axis 2.",
                 change_counts(c=lambda n: 2 * n),
+            ),
+            mistake(
+                "back_forgotten_on_the_limit",
+                0.7,
+                "**Case c: joint 1 may turn half round here, too.** The elbow is straight, so there is one posture in front. And over the back?",
                 change_counts(c=1),
             ),
             mistake(

@@ -109,8 +109,9 @@ QUESTIONS = (
             ),
             symbol_negated(
                 psi,
-                "sign_of_yaw",
-                "**The yaw turns the wrong way.** Which of the two sines in Rot_z carries the minus, the upper or the lower one?",
+                "sign_of_pitch_or_yaw",
+                "**The pitch or the yaw turns the wrong way; these two entries do not tell which.** Where do Rot_y and Rot_z carry their minus? "
+                "Send the first axis of each through a quarter turn: which way must it go?",
             ),
         ),
     ),

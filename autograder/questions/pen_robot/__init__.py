@@ -232,7 +232,14 @@ QUESTIONS = (
                 "heading_of_the_tip",
                 0.4,
                 "**theta1 is the direction of the tip, which is not the direction of the arm.** The pen's plane passes beside axis 1.",
-                wrong=[{"heading": heading, "shares": COMMON_SHARES} for heading in ("tip", "mirror")],
+                wrong={"heading": "tip", "shares": COMMON_SHARES},
+            ),
+            mistake(
+                "sign_of_the_side",
+                0.5,
+                "**theta1 is turned the wrong way.** The tip lies to the left of the arm: does the arm point to the right or to the left of "
+                "the tip?",
+                wrong={"heading": "mirror", "shares": COMMON_SHARES},
             ),
             mistake(
                 "measured_from_the_horizontal",

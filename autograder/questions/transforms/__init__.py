@@ -146,6 +146,12 @@ QUESTIONS = (
         mistakes=(
             inverse_by_transposing(),
             inverse_keeps_position(),
+            transposed_rotation(
+                share=0.5,
+                feedback="**The position is right, the rotation is not inverted.** Your rotation block still leads from frame i-1 to frame i: what "
+                "is the inverse of a rotation?",
+                note="rotation_not_inverted",
+            ),
             mistake(
                 "signs_turned_order_kept",
                 0.4,

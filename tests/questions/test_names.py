@@ -1,0 +1,92 @@
+"""Names are right or missing: mistakes that were once given the name of another one, and slips that any question may meet."""
+
+import pytest
+import sympy
+from answers import STUDENT, right, verdict
+
+from autograder.questions import find
+from autograder.questions.pen_robot.model import COMMON_SHARES
+
+psi, theta, phi = sympy.symbols("psi theta phi")
+
+
+def at(table, row, column, value):
+    rows = [list(each) for each in table]
+    rows[row - 1][column] = value(rows[row - 1][column]) if callable(value) else value
+    return rows
+
+
+# What was handed in, which note it must not get again, and words that must be said.
+ONCE_MISNAMED = {
+    **{
+        f"singular {x}": ("parallel_robots.singular", lambda _, x=x: x, "joint_for_p+one_leg_upright", "")
+        for x in (0, 0.5, 0.7, 0.8, 1)
+    },
+    "last row of the s600 empty": ("scara_s600.table", lambda rows: [*rows[:3], [0] * 5], "rows_shifted", "row 4"),
+    "first row of the s600 empty": ("scara_s600.table", lambda rows: [[0] * 5, *rows[1:]], "rows_shifted", "row 1"),
+    "t1 of the s600 forgotten": (
+        "scara_s600.table",
+        lambda rows: at(rows, 1, 4, 0),
+        "rows_shifted",
+        "row 1, column theta",
+    ),
+    "sign in Rot_y": (
+        "orientation.rpy_entries",
+        lambda found: [sympy.sympify(entry).subs(theta, -theta) for entry in found],
+        "sign_of_yaw",
+        "pitch or the yaw",
+    ),
+    "inverse without transposing": (
+        "transforms.inverse",
+        lambda T: T[:3, :3].T.row_join(T[:3, 3]).col_join(T[3, :]),
+        "inverse_with_unturned_position+not_inverted",
+        "position is right",
+    ),
+    "the back forgotten on the limit": (
+        "inverse_models.counts",
+        lambda found: [*found[:2], 1, *found[3:]],
+        "limit_counted_twice",
+        "over the back",
+    ),
+    "sign of t5": (
+        "tables.wrist",
+        lambda rows: at(rows, 2, 4, lambda cell: -cell),
+        "sign_of_alpha",
+        "row 2, column theta",
+    ),
+    "theta1 negated": ("planar_2r.theta1", lambda angle: -angle, "atan2_arguments_exchanged", "One of these"),
+    "rot_axis": (
+        "orientation.zxz",
+        lambda _: sympy.rot_axis3(psi) * sympy.rot_axis1(theta) * sympy.rot_axis3(phi),
+        "extrinsic_for_intrinsic+transposed_rotation",
+        "rot_axis",
+    ),
+    "rot_axis in the DHm matrix": (
+        "scara.dhm",
+        lambda T: T.subs({theta: -theta, sympy.Symbol("alpha"): -sympy.Symbol("alpha")}, simultaneous=True),
+        "sign_of_alpha",
+        "rot_axis",
+    ),
+}
+
+
+@pytest.mark.parametrize("what", ONCE_MISNAMED)
+def test_no_mistake_gets_the_name_of_another(what):
+    id, change, note, words = ONCE_MISNAMED[what]
+    found = verdict(find(id), change(right(find(id))))
+    assert found.note != note and words in found.feedback, found
+
+
+def test_the_arm_beside_the_tip_is_not_the_direction_of_the_tip():
+    """theta1 = atan2(y, x) + atan2(H, rho) in pen_robot.follow."""
+    question = find("pen_robot.follow")
+    found = verdict(question, question.compute(STUDENT, {"heading": "mirror", "shares": COMMON_SHARES}))
+    assert found.note == "sign_of_the_side"
+
+
+def test_what_does_not_fail_is_not_said_to_fail():
+    for id in ("planar_2r.inverse", "inverse_models.rx90"):
+        question = find(id)
+        inverse = question.answer(STUDENT)
+        found = verdict(question, lambda *args, f=inverse: f(*args) or [(None, None)])
+        assert "does not return an empty list" in found.feedback and "fails" not in found.feedback
