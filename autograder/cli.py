@@ -440,7 +440,7 @@ def _allow(options) -> int:
 def _collect(options) -> int:
     from pathlib import Path
 
-    from autograder.grading.collecting.collect import collect
+    from autograder.grading.collecting.collect import collect, without_time
     from autograder.grading.table import collect_table
 
     given = [Path(name).absolute() for name in options.download]
@@ -449,6 +449,11 @@ def _collect(options) -> int:
     downloads = [path for path in given if path not in worksheets]
     rows = collect(course, options.exercise, downloads, worksheets, options.force)
     collect_table(rows)
+    if unknown := without_time(course, options.exercise):
+        print(
+            f"when {unknown} of them handed in is not in the download, so they are not late; "
+            "Moodle's grading worksheet, given beside it, tells that"
+        )
     return int(any(row.status == "nobody's" and row.remarks for row in rows))
 
 

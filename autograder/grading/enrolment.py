@@ -17,7 +17,7 @@ from .errors import CourseError
 from .files import write_whole
 from .folders import student_names
 from .gradebook import is_made, writing
-from .roster import Person, Roster, read_roster, roster_text
+from .roster import Person, Roster, gradebook_names, read_roster, roster_text
 from .term import more_time, read_term
 from .worksheets import read_canvas, read_moodle
 
@@ -155,8 +155,4 @@ def _new_id(said: Person, people: Sequence[Person], folders: Sequence[str]) -> s
 def _enter_names(course: Course, people: Iterable[Person]) -> None:
     with writing(course.db_url) as session:
         for person in people:
-            student = session.get(Student, person.id)
-            if student is None:
-                session.add(student := Student(id=person.id))
-            student.last_name, student.first_name = person.last_name or None, person.first_name or None
-            student.email = person.email or None
+            session.merge(Student(id=person.id, **gradebook_names(person)))

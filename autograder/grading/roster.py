@@ -154,6 +154,11 @@ def _person(cells: dict[str, str]) -> Person:
     return Person(**values)
 
 
+def gradebook_names(person: Person) -> dict[str, str | None]:
+    """What nbgrader's table of students holds beside the id."""
+    return {name: getattr(person, name) or None for name in ("last_name", "first_name", "email")}
+
+
 def roster_text(people: Iterable[Person]) -> str:
     """The roster as the text of its file."""
     file = io.StringIO()

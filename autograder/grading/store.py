@@ -38,6 +38,7 @@ from .cells import answer_id, check_cells, check_record, notebook_record, tracke
 from .entries import comment
 from .errors import CourseError
 from .files import digest, digest_of
+from .roster import Person, gradebook_names
 from .term import Deadlines
 
 
@@ -258,7 +259,7 @@ def store(
     CourseError
         If the exercise was released anew while the submission was graded.
     """
-    submission = _submission(session, exercise, student)
+    submission = _submission(session, exercise, dates.roster.get(student) or Person(student))
     if timestamp is not None:
         submission.timestamp = timestamp
     dates.apply(submission)
@@ -302,11 +303,12 @@ def mark_page(session: Session, stored: StoredNotebook, content: bytes) -> None:
         mark.shown, mark.page = stored.shown(), digest(content)
 
 
-def _submission(session: Session, exercise: str, student: str) -> SubmittedAssignment:
+def _submission(session: Session, exercise: str, person: Person) -> SubmittedAssignment:
     """The gradebook's rows for a submission, made where they are missing."""
     assignment = session.scalars(select(Assignment).where(Assignment.name == exercise)).one()
+    student = person.id
     if session.get(Student, student) is None:
-        session.add(Student(id=student))
+        session.add(Student(id=student, **gradebook_names(person)))
     submission = session.scalars(
         select(SubmittedAssignment).where(
             SubmittedAssignment.assignment_id == assignment.id, SubmittedAssignment.student_id == student

@@ -115,6 +115,7 @@ def test_who_is_late_loses_points_and_is_told_everywhere(late, without_kernels, 
         "0.8",
         "3.2",
     )
+    assert [rows[student]["last_name"] for student in ("ann", "ben", "cid")] == ["A", "B", "C"]
     assert rows["ben"]["duedate"] == "2026-10-14 22:09:00"
 
 

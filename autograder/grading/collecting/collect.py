@@ -110,6 +110,14 @@ def collect(
     return sorted(rows, key=lambda row: (row.student.casefold(), row.student, row.file))
 
 
+def without_time(course: Course, exercise: str) -> int:
+    """Of how many it is not known when they handed in, where there is a due date."""
+    if exercise not in read_term(course.root).due:
+        return 0
+    receipts = read_receipts(receipts_folder(course.root, exercise))
+    return sum(bool(one.digest) and one.handed_in is None for one in receipts.values())
+
+
 def _is_of(receipt: Receipt, keys: Sequence[Key]) -> bool:
     """Whether it is for one of the platform's persons by these keys."""
     return bool(receipt.number) and any((receipt.platform, receipt.number) == key[:2] for key in keys)

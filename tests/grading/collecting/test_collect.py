@@ -356,7 +356,11 @@ def test_the_command_shows_one_table(downloads, root, capsys):
     assert re.search(r"Ann A .*collected .*scara\.ipynb", said) and re.search(
         r"Ben B .*no notebook .*report\.pdf", said
     )
-    assert "1 collected; 1 no notebook" in said
+    assert "1 collected; 1 no notebook" in said and "not late" not in said
+    (root / "term.toml").write_text("[due]\nscara = 2026-10-14\n")
+    assert cli.main(["collect", "scara", str(path), "--course", str(root)]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert ("when 1 of them handed in is not in the download" in said) == (not list(root.rglob("timestamp.txt")))
 
 
 def test_who_handed_in_something_else_has_a_line_in_the_class_table(downloads, collect, root):
