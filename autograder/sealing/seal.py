@@ -128,7 +128,7 @@ def seal_exercise(
 
 def decisions(questions: Iterable[Question]) -> list[Decision]:
     """Which of the questions have a verdict at home, without sealing them."""
-    return [_decide(question, _sight(question), [_seen_right(question, 0)]) for question in questions]
+    return [_decide(question, _sight(question), [_seen(question, 0)]) for question in questions]
 
 
 def _seal_question(
@@ -136,12 +136,12 @@ def _seal_question(
 ) -> tuple[SealedQuestion, Decision]:
     sight = _sight(question)
     numbers_sets = range(sets if question.personal else 1)
-    rights = [_seen_right(question, which) for which in numbers_sets]
+    rights = [_seen(question, which) for which in numbers_sets]
     decision = _decide(question, sight, rights)
     if decision.why_not:
         return SealedQuestion(why_not=decision.why_not), decision
     calls = [_calls(question, which) for which in numbers_sets]
-    to_seal = [_sealable(question, sight, which, right, solution) for which, right in zip(numbers_sets, rights)]
+    to_seal = [sealables(question, which, solution) for which in numbers_sets]
     texts = {one.said: None for some in to_seal for one in some}
     numbered = {said: number for number, said in enumerate(texts)}
     length = length_for(max(len(one.witness) for some in to_seal for one in some))
@@ -203,9 +203,10 @@ def _decide(question: Question, sight: Sight, rights: Sequence[Look | None]) -> 
     return Decision(question.id, bits, "" if bits >= ENOUGH else _TO_TRY)
 
 
-def _sealable(question: Question, sight: Sight, which: int, right: Look | None, solution: str) -> list[Sealable]:
-    """What is sealed for one set of numbers, the right answer first."""
-    assert right is not None
+def sealables(question: Question, which: int, solution: str = "") -> list[Sealable]:
+    """What is sealed of a question for one set of numbers, the right answer first."""
+    sight, right = _sight(question), _seen(question, which)
+    assert right is not None, question.id
     left_out = ", ".join(_calls(question, which).left_out)
     said = Said(state="right", note="right", share=1.0, solution=solution, left_out=left_out)
     found = [Sealable(said, "", right.parts[""], right.witness)]
@@ -216,7 +217,7 @@ def _sealable(question: Question, sight: Sight, which: int, right: Look | None, 
             look = _seen(question, which, way)
             if look is None or look.bits[""] < ENOUGH:
                 continue
-            if any(_agree(question, sight, look.witness, other) for other in seen):
+            if any(question.form.agree(look.witness, other, sight) for other in seen):
                 continue  # what comes first in the tree decides
             seen.append(look.witness)
             found.append(Sealable(said, "", look.parts[""], look.witness))
@@ -224,14 +225,6 @@ def _sealable(question: Question, sight: Sight, which: int, right: Look | None, 
         if part and right.bits.get(part, 0.0) >= ENOUGH:
             found.append(Sealable(Said(state="part", note=kind_of(part)), kind_of(part), numbers))
     return found
-
-
-def _agree(question: Question, sight: Sight, first: np.ndarray, second: np.ndarray) -> bool:
-    return question.form.agree(first, second, sight)
-
-
-def _seen_right(question: Question, which: int) -> Look | None:
-    return _seen(question, which)
 
 
 def _seen(question: Question, which: int, *ways: Way) -> Look | None:

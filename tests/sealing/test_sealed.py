@@ -12,10 +12,15 @@ from autograder.judge import Family, judge
 from autograder.judge.tree import IMPOSSIBLE
 from autograder.questions import exercises
 from autograder.sealing import seal_exercise
+from autograder.sealing.seal import sealables
 from dhkit import variants, wire
+from dhkit.forms.base import Symbolic, squeezed
+from dhkit.forms.number import Number
 from dhkit.home import envelopes
+from dhkit.home.cells import WIDTH
 from dhkit.home.envelopes import SUFFIX, encoded, lock_of
 from dhkit.home.verdict import kind_of, verdict
+from dhkit.values import reals
 
 pytestmark = pytest.mark.slow
 
@@ -145,44 +150,71 @@ def guesses(question):
     return [*simple, *waves, *products, *decimals]
 
 
-def filled(question, entry):
-    """An answer whose entries are all one guess, or one guess beside zeros."""
-    form = question.form
-    if form.kind == "joint_solutions":
-        yield [[entry] * len(form.joints)]
+def sealed_features(question):
+    """Features of all that is sealed for the first set of numbers, by part."""
+    made = envelopes.find(question.exercise)
+    here = made.of(question.id)
+    found = {}
+    for one in sealables(question, 0):
+        lock = lock_of(made, question.id, one.part, here.personal, 0, here.sight.tolerance)
+        found.setdefault(one.part, (lock, []))[1].append(lock.features(one.numbers))
+    return here.sight, found
+
+
+def opened(lock, features, numbers):
+    """How many of the answers (G, m) come so near to a sealed one that a neighbouring cell could be its own."""
+    guessed = lock.features(numbers.T).T
+    width = WIDTH * lock.tolerance
+    near = [guessed.shape[1] == len(one) and (np.abs(guessed - one) <= width).all(axis=1) for one in features]
+    return int(np.sum(near))
+
+
+ENTRIES = [q for q in QUESTIONS if type(q.form).invariants in (Symbolic.invariants, Number.invariants)]
+
+
+@pytest.mark.parametrize("question", ENTRIES, ids=lambda q: q.id)
+def test_a_hundred_thousand_guesses_open_nothing(home, question):
+    if not is_sealed(question):
         return
-    shape = form.shape
-    if not shape:
-        yield entry
-        return
-    yield np.full(shape, entry, dtype=object).tolist()
-    identity = np.zeros(shape, dtype=object)
-    identity.reshape(-1)[0] = entry
-    yield identity.tolist()
+    sight, sealed = sealed_features(question)
+    rng = np.random.default_rng(8)
+    pool = np.array([reals([wire.encode(one) for one in guesses(question)], at) for at in sight.points])
+    pool = pool[:, np.isfinite(pool).all(axis=0)]
+    size = int(np.prod(question.form.shape))
+    lock, features = sealed[""]
+    tried = 0
+    for _ in range(20):
+        chosen = rng.integers(pool.shape[1], size=(5000, size))
+        chosen[rng.random(chosen.shape) < 0.4] = 0  # the pool begins with zero
+        answers = np.moveaxis(pool[:, chosen], 0, 1)
+        tried += len(answers)
+        assert not opened(lock, features, squeezed(answers.reshape(-1, size), sight.angles).reshape(5000, -1))
+    assert tried == 100_000
 
 
 @pytest.mark.parametrize(
-    "question", [q for q in QUESTIONS if q.form.kind not in ("choice", "function", "point_cloud")], ids=lambda q: q.id
+    "question",
+    [q for q in QUESTIONS if q not in ENTRIES and q.form.kind not in ("choice", "function", "point_cloud")],
+    ids=lambda q: q.id,
 )
-def test_guesses_open_nothing(home, question):
-    """Each cell that a guess touches is tried against all envelopes, whole answers and parts."""
+def test_guesses_at_tables_transforms_and_postures_open_nothing(home, question):
     if not is_sealed(question):
         return
-    sealed = envelopes.find(question.exercise)
-    here = sealed.of(question.id)
-    tags = {here.envelopes[0][start : start + 8] for start in range(0, len(here.envelopes[0]), here.length)}
+    sight, sealed = sealed_features(question)
+    form, rng = question.form, np.random.default_rng(8)
+    nodes = [wire.encode(one) for one in guesses(question)]
+    rows = {"joint_solutions": 2}.get(form.kind)
+    shape = (rows, len(form.joints)) if rows else form.shape
     tried = 0
-    for entry in guesses(question)[:150]:
-        for answer in filled(question, entry):
-            node = question.form.arranged(wire.encode(answer))
-            if question.form.complaint(node):
-                continue
-            for part, numbers in question.form.invariants(node, here.sight).items():
-                lock = lock_of(sealed, question.id, kind_of(part), here.personal, 0, here.sight.tolerance)
-                for cell in lock.cells(numbers):
-                    tried += 1
-                    assert lock.key(cell)[0] not in tags, (answer, part)
-    assert tried > 50
+    for _ in range(500):
+        chosen = rng.integers(len(nodes), size=shape)
+        chosen[rng.random(shape) < 0.4] = 0
+        node = form.arranged(np.vectorize(nodes.__getitem__, otypes=[object])(chosen).tolist())
+        for part, numbers in form.invariants(node, sight).items():
+            if kind_of(part) in sealed:
+                tried += 1
+                assert not opened(*sealed[kind_of(part)], numbers[None])
+    assert tried > 300
 
 
 def test_nothing_of_an_answer_stands_in_the_file(sealed):

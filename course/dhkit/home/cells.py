@@ -48,12 +48,12 @@ class Lock:
     cost: int = COST
 
     def features(self, numbers: np.ndarray) -> np.ndarray:
-        """A few features of m numbers, (k,): they move by no more than the numbers do."""
+        """A few features (k, ...) of m numbers, (m, ...): they move by no more than the numbers do."""
         if len(numbers) <= FEW:
             return numbers
         stream = hashlib.shake_256(self.salt + self.about.encode()).digest(4 * FEATURES * len(numbers))
         weights = np.frombuffer(stream, "<u4").reshape(FEATURES, -1) / 2.0**31 - 1
-        return weights @ numbers / np.abs(weights).sum(axis=1)
+        return weights / np.abs(weights).sum(axis=1, keepdims=True) @ numbers
 
     def cell(self, numbers: np.ndarray) -> tuple[int, ...]:
         """The cell in which an answer lies."""

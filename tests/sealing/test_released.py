@@ -1,0 +1,45 @@
+"""The sealed files in ``exercises/`` are those of the present questions: everything that is sealed now opens in them."""
+
+from pathlib import Path
+
+import nbformat
+import pytest
+
+from autograder.grading.release import points, solutions
+from autograder.questions import exercises
+from autograder.sealing import decisions
+from autograder.sealing.seal import sealables
+from dhkit import variants
+from dhkit.home import envelopes
+from dhkit.home.envelopes import SUFFIX, lock_of, open_envelopes, read
+
+pytestmark = pytest.mark.slow
+
+ROOT = Path(__file__).parents[2]
+MOST_BYTES = 5 << 20
+
+
+@pytest.mark.parametrize("exercise", exercises())
+def test_the_sealed_file_is_current(exercise):
+    """If it is not: autograder release."""
+    questions = exercises()[exercise]
+    notebook = nbformat.read(ROOT / "solutions" / exercise / f"{exercise}.ipynb", as_version=4)
+    worked, worth = solutions(notebook), points(notebook)
+    file = read(ROOT / "exercises" / exercise / f"{exercise}{SUFFIX}")
+    assert list(file.questions) == [question.id.partition(".")[2] for question in questions]
+    for question, decision in zip(questions, decisions(questions), strict=True):
+        here = file.of(question.id)
+        assert (here.why_not, here.points) == (decision.why_not, worth[question.id]), question.id
+        if here.why_not:
+            continue
+        assert len(here.envelopes) == (variants.SETS if question.personal else 1)
+        for which in {0, len(here.envelopes) - 1}:
+            for one in sealables(question, which, worked.get(question.id, "")):
+                lock = lock_of(file, question.id, one.part, here.personal, which, here.sight.tolerance)
+                opened = next(open_envelopes(here, here.envelopes[which], lock, one.numbers), None)
+                assert opened is not None and opened.said == one.said, (question.id, one.said.note)
+
+
+def test_all_sealed_files_together_are_small():
+    sizes = [path.stat().st_size for path in (ROOT / "exercises").glob(f"*/*{envelopes.SUFFIX}")]
+    assert len(sizes) == len(exercises()) and sum(sizes) < MOST_BYTES
