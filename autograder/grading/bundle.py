@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import json
 import zipfile
+from collections.abc import Iterable
 from pathlib import Path
+
+from dhkit.home.envelopes import SUFFIX
 
 from .errors import CourseError
 
@@ -55,10 +58,18 @@ def write_bundle(root: Path, target: Path) -> list[str]:
             _refuse_leak(name, path)
     top = target.stem
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr(zipfile.ZipInfo(f"{top}/README.md", _EPOCH), README, zipfile.ZIP_DEFLATED)
+        archive.writestr(zipfile.ZipInfo(f"{top}/README.md", _EPOCH), README + _unsealed(files), zipfile.ZIP_DEFLATED)
         for name, path in files.items():
             archive.writestr(zipfile.ZipInfo(f"{top}/{name}", _EPOCH), path.read_bytes(), zipfile.ZIP_DEFLATED)
     return ["README.md", *files]
+
+
+def _unsealed(files: Iterable[str]) -> str:
+    """A line on the exercises whose copies tell the form only; nothing if there are none."""
+    folders = {name.split("/")[1] for name in files if name.startswith("exercises/")}
+    sealed = {name.split("/")[1] for name in files if name.endswith(SUFFIX)}
+    told = ", ".join(sorted(folders - sealed))
+    return f"* Without verdicts at home, form only: {told}.\n" if told else ""
 
 
 def _files(folder: Path) -> list[Path]:
