@@ -213,6 +213,7 @@ def _name_lengths(ax, labels, at, q, sizes, unit, repaired):
         if abs(phi) > 0.1:
             draw_angle_3d(ax, at["O3"], z, x1, radius, phi, "")
             middle = arc_points(at["O3"], radius, z, x1, phi / 2)
+            labels.avoid(arc_points(at["O3"], radius, z, x1, np.linspace(0, phi, 40)))
             labels.ask(middle, r"$\theta_2 + \theta_3$", middle - at["O3"])
     return [np.array(ends)]
 
