@@ -86,7 +86,7 @@ def test_natural_types_of_a_matrix():
     ):
         assert compare(form, student, rows).equal
     wrong = compare(form, [[sympy.cos(t1), 0], [1, t1]], rows)
-    assert not wrong.equal and wrong.share == 0.75 and "(2, 2)" in wrong.remarks[0]
+    assert not wrong.equal and wrong.share == 0.75 and "row 2, column 2" in wrong.remarks[0]
 
 
 def test_transform_credit_is_per_block():

@@ -59,7 +59,18 @@ def _students(names: Sequence[str]) -> str:
 
 def tables(report: ClassReport) -> dict[str, list[Sequence]]:
     """Rows of each CSV file, the names of the columns first."""
-    about = ("question", "title", "max_score", "submissions", "mean", "median", "full", "not_attempted", "unexplained")
+    about = (
+        "question",
+        "title",
+        "max_score",
+        "submissions",
+        "answered",
+        "mean",
+        "median",
+        "full",
+        "not_attempted",
+        "unexplained",
+    )
     questions: list[Sequence] = [(*about, "discrimination")]
     notes: list[Sequence] = [("question", "note", "count")]
     answers: list[Sequence] = [("question", "size", "compared_by", "students", "said", "answer")]

@@ -47,11 +47,13 @@ class QuestionReport:
     Attributes
     ----------
     scores : tuple of float
-        Points of each submission.
-    answered : int
-        Submissions with an answer to any question: the others tell nothing about this one.
+        Points of each submission with an answer to any question: the others tell nothing about this one.
+    notes : Counter
+        Their answer notes.
+    submissions : int
+        All submissions, those without any answer too.
     discrimination : float or None
-        Correlation of their points with those of the other questions, None where it says nothing.
+        Correlation of the points with those of the other questions, None where it says nothing.
     clusters : tuple of Cluster
         Wrong answers that no misconception explains, the largest cluster first.
     """
@@ -61,12 +63,12 @@ class QuestionReport:
     max_score: float
     scores: tuple[float, ...]
     notes: Counter[str]
-    answered: int
+    submissions: int
     discrimination: float | None = None
     clusters: tuple[Cluster, ...] = ()
 
     @property
-    def submissions(self) -> int:
+    def answered(self) -> int:
         return len(self.scores)
 
     @property
@@ -127,10 +129,14 @@ class QuestionReport:
 
 @dataclass(frozen=True)
 class ClassReport:
-    """One exercise over the class; `totals` holds the points of each submission."""
+    """One exercise over the class.
+
+    `totals` holds the points of each submission with an answer to any question, `nothing` counts those without.
+    """
 
     exercise: str
     totals: tuple[float, ...]
+    nothing: int
     questions: tuple[QuestionReport, ...]
 
     @property
@@ -184,16 +190,23 @@ def class_report(course: Course, exercise: str) -> ClassReport:
         key=lambda name: (order.index(question_id(name)) if question_id(name) in order else len(order), name),
     )
     found = [_question_report(name, max_scores[name], rows, attempts.get(name, [])) for name in names]
-    totals = tuple(sum(score for score, _ in row.values()) for row in rows.values())
-    return ClassReport(exercise, totals, tuple(found))
+    answered = _answered(rows)
+    totals = tuple(sum(score for score, _ in row.values()) for row in answered)
+    return ClassReport(exercise, totals, len(rows) - len(answered), tuple(found))
+
+
+def _answered(rows: dict[str, dict]) -> list[dict]:
+    """The submissions with an answer to any question; all of them where there is none, as nobody would be left."""
+    found = [row for row in rows.values() if any(note not in NOTHING_CAME for _, note in row.values())]
+    return found or list(rows.values())
 
 
 def _question_report(name: str, max_score: float, rows: dict[str, dict], attempts: list[Attempt]) -> QuestionReport:
     rows = {student: row for student, row in rows.items() if name in row}
-    scores = tuple(row[name][0] for row in rows.values())
-    answered = [row for row in rows.values() if any(note not in NOTHING_CAME for _, note in row.values())]
+    answered = _answered(rows)
+    scores = tuple(row[name][0] for row in answered)
     rests = [sum(score for other, (score, _) in row.items() if other != name) for row in answered]
-    notes = Counter(row[name][1] for row in rows.values())
+    notes = Counter(row[name][1] for row in answered)
     question, public = _question(name), public_questions().get(question_id(name))
     return QuestionReport(
         question_id(name),
@@ -201,8 +214,8 @@ def _question_report(name: str, max_score: float, rows: dict[str, dict], attempt
         max_score,
         scores,
         notes,
-        len(answered),
-        discrimination([row[name][0] for row in answered], rests),
+        len(rows),
+        discrimination(scores, rests),
         cluster(question, attempts) if question else (),
     )
 

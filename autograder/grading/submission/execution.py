@@ -179,14 +179,18 @@ def _evidence(nb: NotebookNode, index: int, check: str, run: Run, sent: dict[int
 
 
 def _first_trouble(nb: NotebookNode, index: int, check: str, run: Run) -> CellRun | None:
-    """The first cell of a question that did not end well: an answer that looped explains a check without a name."""
+    """The first cell of a question that did not end well: an answer that looped explains a check without a name.
+
+    The answer's own cell belongs to it wherever the student has moved it.
+    """
     start = index
     while start > 0 and grade_id(nb.cells[start]) != answer_id(check):
         start -= 1
         if is_check(nb.cells[start]):
             start = index
             break
-    question = [run.cells[i] for i in range(start, index + 1) if i in run.cells]
+    answers = [i for i, cell in enumerate(nb.cells) if grade_id(cell) == answer_id(check)]
+    question = [run.cells[i] for i in sorted({*answers, *range(start, index + 1)}) if i in run.cells]
     return next((cell for cell in question if cell.status != "ok"), None)
 
 

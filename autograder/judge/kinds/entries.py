@@ -173,12 +173,20 @@ def listed(names: Sequence[str]) -> str:
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
+_PLURAL = {"matrix": "matrices", "row": "rows"}
+
+
 def differing_cells(agree: np.ndarray) -> tuple[str, ...]:
-    """Which cells of a matrix do not agree, in words."""
-    wrong = [f"({', '.join(map(str, place + 1))})" for place in np.argwhere(~agree)]
+    """Which cells of a matrix, or of a list of matrices, do not agree, in words; of many, in which rows or matrices."""
+    names = ("matrix", "row", "column")[-agree.ndim :]
+    places = (np.argwhere(~agree) + 1).tolist()
+    wrong = [", ".join(f"{name} {k}" for name, k in zip(names, place, strict=True)) for place in places]
     if not wrong:
         return ()
-    more = ", ..." if len(wrong) > 6 else ""
-    return (
-        f"cell {wrong[0]} differs" if len(wrong) == 1 else f"{len(wrong)} cells differ: {', '.join(wrong[:6])}{more}",
-    )
+    if len(wrong) == 1:
+        return (f"only one cell differs: {wrong[0]}",)
+    if len(wrong) <= 4:
+        return (f"{len(wrong)} cells differ: {'; '.join(wrong)}",)
+    which = sorted({str(place[0]) for place in places})
+    where = f"{_PLURAL[names[0]]} {listed(which)}" if len(which) > 1 else f"{names[0]} {which[0]}"
+    return (f"{len(wrong)} cells differ, in {where}",)

@@ -87,8 +87,9 @@ def explain(student: np.ndarray, asked: Asked) -> Slip | None:
         if len(found) > 3:
             break
     if found:
-        # What one term does, a symbol or the whole answer explains better.
-        return _told([each for each in found.values() if each.note != "sign_of_a_term"] or list(found.values()))
+        # What a sign inside does, a symbol or the whole answer explains better.
+        inside = ("sign_of_a_term", "sign_inside_atan2")
+        return _told([each for each in found.values() if each.note not in inside] or list(found.values()))
     return _explain_entries(student, ours, asked)
 
 
@@ -96,10 +97,9 @@ def _told(found: list[_Found]) -> Slip:
     first = found[0]
     if len(found) == 1:
         return Slip(first.note, first.share, f"**{first.said[0].upper()}{first.said[1:]}.** {first.hint}".strip())
-    notes = sorted({each.note for each in found})
     said = "; or ".join(each.said for each in found)
     return Slip(
-        "_or_".join(notes[:2]),
+        first.note,
         min(each.share for each in found),
         f"**One of these, which come to the same here: {said}.** {first.hint}".strip(),
     )
