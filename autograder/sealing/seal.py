@@ -23,6 +23,7 @@ from dhkit import variants, wire
 from dhkit.forms import Form
 from dhkit.forms.base import Parts, Sight
 from dhkit.forms.choice import Choice
+from dhkit.forms.dh_table import DHTable
 from dhkit.home.cells import COST
 from dhkit.home.envelopes import (
     Said,
@@ -39,6 +40,9 @@ from dhkit.home.verdict import function_parts, kind_of
 from .plausible import ENOUGH, bits_of_parts, bits_of_results
 
 CALLS_A_CASE = 3
+POINTS_OF_A_TABLE = 4
+"""A chain is known by its hand in a few postures; frames at every point would make large envelopes."""
+
 _SEED = 13
 _TO_TRY = "its answer could be found by trying"
 _PINS = {"z": Freedom.Z, "x": Freedom.X, "origin": Freedom.ORIGIN}
@@ -187,6 +191,8 @@ def _sight(question: Question) -> Sight:
     """How answers to the question are compared, said without its answer."""
     samples = {name: values.tolist() for name, values in question.samples.items()}
     count = len(next(iter(samples.values()), [0]))
+    if isinstance(question.form, DHTable):
+        count = min(count, POINTS_OF_A_TABLE)
     points = tuple({name: values[i] for name, values in samples.items()} for i in range(count))
     pins = tuple(name for name, freedom in _PINS.items() if freedom in question.pinned)
     return Sight(points=points, angles=question.angles, tolerance=question.accuracy, pins=pins)
