@@ -14,6 +14,7 @@ from nbformat.notebooknode import NotebookNode
 from autograder import questions
 from autograder.judge import Evidence, is_forgivable, judge
 from autograder.judge.account import Account, account
+from autograder.judge.tree import UNEXPLAINED
 from autograder.sandbox import available
 from dhkit.variants import normal_form
 
@@ -23,7 +24,7 @@ from .entries import note_of, score
 from .errors import CourseError
 from .folders import released_path
 from .gradebook import reading
-from .inert import terminal_text
+from .inert import terminal_text, without_markdown
 from .plugins.autograde import SubmissionAutograde, submission
 from .plugins.preprocessors import SandboxExecute
 from .roster import read_roster
@@ -115,7 +116,7 @@ def explain(course: Course, student: str, question: str) -> Explanation:
         question,
         this.public.title,
         float(asked[check].metadata.nbgrader["points"]),
-        tracked_cells(nb)[answer_id(check)].source,
+        "" if notebook_record(nb).unreadable else tracked_cells(nb)[answer_id(check)].source,
         evidence[check].trouble,
         counts_for_everybody(asked[check]),
         account(this, evidence[check], student, earlier),
@@ -188,9 +189,9 @@ def _parts(found: Explanation, with_answer: bool, whole_tree: bool) -> list[tupl
     parts = [
         (f"{found.question}: {found.title}", f"{found.student}: {points}, {verdict.note}"),
         ("In the gradebook", _gradebook(found)),
-        ("What was typed", found.source[:_SOURCE] or "(nothing)"),
+        ("What was typed", found.source[:_SOURCE] or "(nothing that can be read)"),
         ("How it was read", _reading(found)),
-        ("What the student is told", verdict.feedback),
+        ("What the student is told", without_markdown(verdict.feedback)),
         ("What decided", _tree(told, whole_tree)),
     ]
     if found.for_everybody:
@@ -242,18 +243,24 @@ def _reading(found: Explanation) -> str:
 def _tree(told: Account, whole: bool) -> str:
     note, share = told.verdict.note, told.verdict.share
     decided = [name for name, _, has in told.tree if has]
+    worth = f"({share:.0%} of the points)"
     if note == "right":
         why = "the answer equals the right one, in one of its forms"
     elif told.carried_over:
         why = "the answer is what follows from the student's own earlier answer"
+    elif note == "numbers_of_another_student":
+        why = "the answer is right for the numbers of the id that was typed, not for the student's own"
     elif decided:
-        made = " and ".join(decided)
-        why = f"the answer equals the right one with this done wrong: {made} ({share:.0%} of the points)"
+        why = f"the answer equals the right one with this done wrong: {' and '.join(decided)} {worth}"
+    elif note == "malformed":
+        why = "the answer does not have the form that is asked for"
+    elif note in UNEXPLAINED:
+        why = f"the answer is not right, and no mistake with a name gives it, of {len(told.tree) - 1}: {note} {worth}"
     else:
-        why = f"no mistake with a name, of {len(told.tree) - 1}, gives this answer: {note} ({share:.0%} of the points)"
+        why = f"there was nothing to compare: {note}"
     if not whole:
         return why
-    lines = [f"{'->' if has else '  '} {name} ({worth:.0%})" for name, worth, has in told.tree]
+    lines = [f"{'->' if has else '  '} {name} ({part:.0%})" for name, part, has in told.tree]
     return "\n".join([why, "tried in this order:", *lines])
 
 

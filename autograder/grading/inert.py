@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from html import escape
+from html import escape, unescape
 from urllib.parse import unquote
 
 import nh3
@@ -29,6 +29,11 @@ def terminal_text(text: str, limit: int = 200) -> str:
     """`text` on one line, without control or direction characters, at most `limit` characters."""
     text = _CONTROL.sub(" ", text).strip()
     return text if len(text) <= limit else f"{text[: limit - 3]}..."
+
+
+def without_markdown(feedback: str) -> str:
+    """What the judge says, as plain text."""
+    return unescape(re.sub(r"\\(.)", r"\1", feedback.replace("**", "")))
 
 
 def spreadsheet_cell(value: object) -> object:

@@ -55,9 +55,24 @@ def test_an_answer_that_did_not_run(root, without_kernels):
     text, page = told(root, without_kernels, "scara.T04")
     for said in ("it did not run: NameError: undefined", "no answer was handed in", "Your code stopped with an error"):
         assert said in text and said in page
+    assert "there was nothing to compare: error" in text
     assert "sign_of_d2" in text, "the lecturer sees which mistakes have a name"
     assert "sign_of_d2" not in page, "what is forwarded names no mistake that was not made"
     assert SCRIPT not in page and "&lt;script&gt;" in page
+
+
+def test_a_file_that_cannot_be_read(root, without_kernels, small):
+    small.hand_in(root, "cut", '{"cells": [')
+    with without_kernels():
+        found = explain(open_course(root), "cut", "scara.d2_sign")
+    text = as_text(found, False)
+    for said in (
+        "(nothing that can be read)",
+        "not valid JSON (line 1); it may have been cut off",
+        "nothing to compare: ",
+    ):
+        assert said in text
+    assert "\\" not in text
 
 
 def test_the_right_answer_is_shown_on_request_only(root, without_kernels):

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import html
-import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -23,7 +21,7 @@ from ..course import Course
 from ..entries import read_entries
 from ..errors import CourseError
 from ..gradebook import stock_gradebook
-from ..inert import terminal_text
+from ..inert import terminal_text, without_markdown
 from ..results import graded_notebooks
 
 UNNOTED = "unnoted"
@@ -248,4 +246,4 @@ def _feedback(outputs: Iterable[NotebookNode]) -> str:
     feedback = next(
         (output.data.get("text/plain", "") for output in outputs if output.output_type == "display_data"), ""
     )
-    return terminal_text(html.unescape(re.sub(r"\\(.)", r"\1", feedback.replace("**", ""))), 400)
+    return terminal_text(without_markdown(feedback), 400)
