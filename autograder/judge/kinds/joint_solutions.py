@@ -6,8 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from dhkit.forms.joint_solutions import JointSolutions
-from dhkit.geometry import wrap
+from dhkit.forms.joint_solutions import JointSolutions, close, distinct
 
 from ..decode import Value
 from .base import Comparison, Setting
@@ -26,12 +25,13 @@ def compare(form: JointSolutions, student: np.ndarray, other: np.ndarray, settin
 
     Of a family of infinitely many, any valid representatives are accepted.
     """
-    kept = _distinct(student, setting)
-    mine, theirs = student[kept], other[_distinct(other, setting)]
+    merged = setting.angles, setting.tolerance, setting.turn
+    kept = distinct(student, *merged)
+    mine, theirs = student[kept], other[distinct(other, *merged)]
     slack = np.broadcast_to(setting.slack, student.shape)[kept]
     if setting.family and setting.residual is not None:
         return _of_a_family(mine, setting.residual, setting, slack)
-    same = _close(theirs, mine, setting, slack)
+    same = close(theirs, mine, setting.angles, setting.tolerance + slack, setting.turn)
     missing, extra = int((~same.any(axis=1)).sum()), np.asarray(~same.any(axis=0))
     remarks = []
     if missing:
@@ -65,23 +65,3 @@ def _of_a_family(
     if not wrong.any():
         return Comparison(True, 1.0)
     return Comparison(False, float((~wrong).mean()), (_wrong(mine, wrong, setting),))
-
-
-def _close(a: np.ndarray, b: np.ndarray, setting: Setting, slack: np.ndarray | float = 0.0) -> np.ndarray:
-    """Which of the (m, n) solutions `a` are the same as which of the (k, n) solutions `b`: an (m, k) array.
-
-    `slack` is by how much more each number of `b` may be off.
-    """
-    gap = np.abs(a[:, None] - b[None])
-    angles = list(setting.angles)
-    gap[..., angles] = np.abs(wrap(gap[..., angles] * (2 * np.pi / setting.turn)))
-    return (gap <= setting.tolerance + slack).all(axis=-1)
-
-
-def _distinct(solutions: np.ndarray, setting: Setting) -> list[int]:
-    """Which of the solutions stand for all of them, each once."""
-    kept: list[int] = []
-    for i, same in enumerate(_close(solutions, solutions, setting)):
-        if not same[kept].any():
-            kept.append(i)
-    return kept

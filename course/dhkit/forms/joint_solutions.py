@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from .. import nodes
@@ -47,7 +49,8 @@ class JointSolutions(Fields, frozen=True, kw_only=True):
         return nodes.alien(node, ()) or unreal(node)
 
     def invariants(self, node: object, sight: Sight) -> Parts:
-        found = distinct(self._rows(node), sight)
+        rows = self._rows(node)
+        found = rows[distinct(rows, sight.angles, sight.tolerance)]
         alone = {f"solution {i + 1}": squeezed(row[None], sight.angles) for i, row in enumerate(found)}
         return {"": np.array([len(found), *_sums(found, sight)]), **alone}
 
@@ -55,28 +58,41 @@ class JointSolutions(Fields, frozen=True, kw_only=True):
         return self._rows(node).ravel()
 
     def agree(self, first: np.ndarray, second: np.ndarray, sight: Sight) -> bool:
-        same = close(first.reshape(-1, len(self.joints)), second.reshape(-1, len(self.joints)), sight)
+        mine, theirs = first.reshape(-1, len(self.joints)), second.reshape(-1, len(self.joints))
+        same = close(mine, theirs, sight.angles, sight.tolerance)
         return bool(same.any(axis=1).all() and same.any(axis=0).all())
 
     def _rows(self, node: object) -> np.ndarray:
         return reals(node, {}).reshape(-1, len(self.joints))
 
 
-def close(a: np.ndarray, b: np.ndarray, sight: Sight, turn: float = 2 * np.pi) -> np.ndarray:
-    """Which of the (m, n) solutions `a` are the same as which of the (k, n) solutions `b`, (m, k) booleans."""
+def close(
+    a: np.ndarray, b: np.ndarray, angles: Sequence[int], tolerance: float | np.ndarray, turn: float = 2 * np.pi
+) -> np.ndarray:
+    """Which of the (m, n) solutions `a` are the same as which of the (k, n) solutions `b`, (m, k) booleans.
+
+    Parameters
+    ----------
+    a, b : ndarray
+    angles : sequence of int
+        Joints that are equal modulo a turn.
+    tolerance : float or ndarray, shape (k, n)
+        Largest difference between equal joint values.
+    turn : float
+        In the unit of the angles.
+    """
     gap = np.abs(a[:, None] - b[None])
-    angles = list(sight.angles)
-    gap[..., angles] = np.abs(wrap(gap[..., angles] * (2 * np.pi / turn)))
-    return (gap <= sight.tolerance).all(axis=-1)
+    gap[..., list(angles)] = np.abs(wrap(gap[..., list(angles)] * (2 * np.pi / turn)))
+    return (gap <= tolerance).all(axis=-1)
 
 
-def distinct(solutions: np.ndarray, sight: Sight, turn: float = 2 * np.pi) -> np.ndarray:
-    """Rows (k, n) of solutions without those that are the same as one before."""
+def distinct(solutions: np.ndarray, angles: Sequence[int], tolerance: float, turn: float = 2 * np.pi) -> list[int]:
+    """Places of the solutions (k, n) that stand for all of them, each once."""
     kept: list[int] = []
-    for i, same in enumerate(close(solutions, solutions, sight, turn)):
+    for i, same in enumerate(close(solutions, solutions, angles, tolerance, turn)):
         if not same[kept].any():
             kept.append(i)
-    return solutions[kept]
+    return kept
 
 
 FREQUENCIES = (
