@@ -61,10 +61,11 @@ def test_an_answer_that_did_not_run(root, without_kernels):
     assert SCRIPT not in page and "&lt;script&gt;" in page
 
 
-def test_a_file_that_cannot_be_read(root, without_kernels, small):
-    small.hand_in(root, "cut", '{"cells": [')
+def test_a_file_that_cannot_be_read(root, without_kernels, small, tmp_path):
+    shutil.copytree(root, tmp_path / "course")
+    small.hand_in(tmp_path / "course", "cut", '{"cells": [')
     with without_kernels():
-        found = explain(open_course(root), "cut", "scara.d2_sign")
+        found = explain(open_course(tmp_path / "course"), "cut", "scara.d2_sign")
     text = as_text(found, False)
     for said in (
         "(nothing that can be read)",
