@@ -32,6 +32,15 @@ the four words of `Status`, in all solvers.
 >>> arm.has_inverse, robots.PUMA_PRINTED.has_inverse
 (True, False)
 
+A robot of one's own is `Robot` of its table, whichever senses its axes have: the closed form that fits is chosen, and
+`misfits` says what the table lacks for each one.
+
+>>> Robot(table).inverse([0.5, -0.4]).q.round(3)
+array([[-1.349,  1.571],
+       [ 0.   , -1.571]])
+>>> misfits(robots.PUMA_PRINTED.table)["elbow arm with a spherical wrist"]
+'axes 5 and 6 are not at a right angle: alpha_5 = 0 degrees'
+
 **Families.** A singular or redundant posture names its free direction; `near` chooses the member that is reported.
 
 >>> aligned = arm.inverse(arm.forward([0.3, 0.4, 0.5, 0.6, 0, 0.7]), near=[0, 0, 0, 1.0, 0, 0.3])
@@ -102,6 +111,7 @@ from . import catalogue as robots
 from . import equations, orientation, workspace
 from .catalogue import Robot
 from .centres import epfl_centres, rotation_about, scara_centres
+from .choice import misfits
 from .parallel import ThreeRPR, ThreeRRR
 from .singularities import jacobian, mobility, rank, rx90_determinant, scara_determinant, two_link_determinant
 from .solutions import Batch, Nearest, Solutions
@@ -126,6 +136,7 @@ __all__ = [
     "epfl_centres",
     "equations",
     "jacobian",
+    "misfits",
     "mobility",
     "orientation",
     "rank",

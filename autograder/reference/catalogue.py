@@ -20,6 +20,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import ArrayLike
 
+from .choice import CLASSES, chosen, misfits
 from .elbow import ElbowArm, WristAlone, WristedArm
 from .inverse import TOLERANCE, InverseModel
 from .parallel import ThreeRPR, ThreeRRR
@@ -45,12 +46,13 @@ class Robot:
     ----------
     table : DHTable
         Letters for the lengths as in the documents, and numbers behind them.
-    model : subclass of InverseModel, or None
-        The closed-form inverse model; None where there is none.
+    model : subclass of InverseModel, optional
+        The class of its closed-form inverse model; by default the one that fits the table, if there is one (`misfits`
+        says what each class misses).
     """
 
     table: DHTable
-    model: type[InverseModel] | None
+    model: type[InverseModel] | None = None
 
     @property
     def name(self) -> str:
@@ -60,17 +62,25 @@ class Robot:
     @property
     def has_inverse(self) -> bool:
         """Whether there is a closed-form inverse model of the robot."""
-        return self.model is not None
+        return (self.model or chosen(self.table)) is not None
 
     @cached_property
     def inverse_model(self) -> InverseModel:
         """The inverse model. Raises ValueError, which says why, when the robot has none."""
-        if self.model is not None:
-            return self.model(self.table)
+        model = self.model or chosen(self.table)
+        if model is not None:
+            return model(self.table)
         joints, freedoms = self.table.chain.joints, mobility(self.table)
-        if freedoms < joints:
-            raise ValueError(f"{self.name} has no inverse model: its {joints} joints give {freedoms} freedoms only")
-        raise ValueError(f"{self.name} has no inverse model in closed form")
+        found = [
+            f"it is no {kind} ({lacking})"
+            for kind, lacking in misfits(self.table).items()
+            if CLASSES[kind].expected_joints in (None, joints)
+        ]
+        where = " in closed form"
+        if freedoms < min(joints, 6):
+            where = ""
+            found.insert(0, f"its {joints} joints give {freedoms} freedoms only")
+        raise ValueError(f"{self.name or 'this robot'} has no inverse model{where}: {', '.join(found)}")
 
     def forward(self, q: ArrayLike) -> np.ndarray:
         """Forward kinematics: poses (..., 4, 4) for joint values q (..., n), radians or metres."""

@@ -18,6 +18,8 @@ from numpy.typing import ArrayLike
 
 from dhkit.geometry import phasor, two_link
 
+from .forward import Chain
+from .gauge import demand_kinds, demand_length, demand_parallel, demand_square
 from .inverse import Branches, InverseModel, JointMap, translations
 from .shoulder import Shoulder, shoulder
 from .status import Failure, Flag, two_link_flags
@@ -64,7 +66,7 @@ class ArmGeometry:
     side : float
         +1 or -1, the sense of axis 2 (sine of alpha_1).
     out, upper : float
-        a_1, from axis 1 to axis 2, and a_2, metres.
+        a_1, from axis 1 to axis 2, and a_2 >= 0, metres.
     fore : complex
         The tip (tool point or wrist centre) in frame 3 as x + iy, metres.
     offset : float
@@ -82,20 +84,12 @@ class ArmGeometry:
     size: float
 
     @classmethod
-    def of(cls, table: DHTable, tip: np.ndarray) -> ArmGeometry:
-        """From the table and the tip (3,) in frame 3.
-
-        Raises ValueError when rows 1 to 3 are not those of an elbow arm.
-        """
-        chain = table.chain
-        upright = abs(chain.cos_alpha[1]) < 1e-12
-        parallel = chain.cos_alpha[2] > 1.0 - 1e-12
-        if not upright or not parallel or chain.prismatic[:3].any():
-            raise ValueError("an elbow arm has revolute axes 2 and 3 parallel, square to axis 1")
+    def of(cls, chain: Chain, tip: np.ndarray) -> ArmGeometry:
+        """From a chain in canonical gauge, whose rows 1 to 3 `demand_elbow`, and the tip (3,) in frame 3."""
         side = float(np.sign(chain.sin_alpha[1]))
         offset = -side * (chain.fixed[1] + chain.fixed[2] + tip[2])
         fore = complex(tip[0], tip[1])
-        size = abs(chain.a[1]) + abs(chain.a[2]) + abs(fore) + abs(offset)
+        size = abs(chain.a[1]) + chain.a[2] + abs(fore) + abs(offset)
         to_arm = np.linalg.inv(chain.base @ chain.row_matrix(0, 0.0))
         return cls(to_arm, side, chain.a[1], chain.a[2], fore, offset, size)
 
@@ -121,9 +115,8 @@ class ArmGeometry:
         anchors : theta_1 and theta_2 where they are free, radians.
         """
         branches, tip = self.in_plane(point, anchors[0], tol)
-        upper_phase = np.angle(self.upper)
         fore_phase = np.angle(self.fore)
-        arm = two_link(tip, abs(self.upper), abs(self.fore), np.asarray(anchors[1]) + upper_phase, tol)
+        arm = two_link(tip, self.upper, abs(self.fore), anchors[1], tol)
         outside = np.maximum(arm.beyond, arm.short)
         nearer = outside.argmin(axis=0)
         columns = np.arange(tip.shape[-1])
@@ -139,8 +132,8 @@ class ArmGeometry:
         solved = valid.any(axis=(0, 1))
         return Postures(
             first=np.angle(branches.phasor),
-            second=first - upper_phase,
-            third=bend + (upper_phase - fore_phase),
+            second=first,
+            third=bend - fore_phase,
             first_phasor=branches.phasor,
             fore_phasor=first_turn * bend_turn * phasor(-fore_phase),
             valid=valid,
@@ -178,10 +171,17 @@ class ArmGeometry:
                 f"{abs(self.offset):.3g} m about axis 1 that the lateral offset leaves out"
             )
         if failure == Failure.BEYOND:
-            reach = abs(self.upper) + abs(self.fore)
+            reach = self.upper + abs(self.fore)
             return f"the {target} is {excess:.3g} m beyond the reach {reach:.3g} m of the elbow"
-        inner = abs(abs(self.upper) - abs(self.fore))
+        inner = abs(self.upper - abs(self.fore))
         return f"the {target} is {excess:.3g} m inside the inner limit {inner:.3g} m of the elbow"
+
+
+def demand_elbow(chain: Chain) -> None:
+    """Raises ValueError unless axes 2 and 3 of a table are revolute and parallel, square to axis 1."""
+    demand_kinds(chain, [0, 0, 0])
+    demand_square(chain, 1)
+    demand_parallel(chain, 2)
 
 
 class ElbowArm(InverseModel):
@@ -200,10 +200,11 @@ class ElbowArm(InverseModel):
     def __init__(self, table: DHTable) -> None:
         super().__init__(table)
         self.anchors = {Flag.FREE_FIRST: (0,), Flag.FREE_PLANE: (1,)}
-        self.arm = ArmGeometry.of(table, table.chain.tail(2)[:3, 3])
-        self.map = JointMap.of(table.chain)
-        if not (self.arm.upper and self.arm.fore):
-            raise ValueError("an elbow arm needs an upper arm and a forearm")
+        self.map = JointMap.of(self.chain)
+        demand_elbow(table.chain)
+        self.arm = ArmGeometry.of(self.chain, self.chain.tail(2)[:3, 3])
+        demand_length(self.arm.upper, "the upper arm", "a_2")
+        demand_length(abs(self.arm.fore), "the forearm", "the tool's distance from axis 3")
 
     def pose(self, task: np.ndarray) -> np.ndarray:
         return translations(task)
@@ -261,17 +262,9 @@ class Wrist:
     first: int
 
     @classmethod
-    def of(cls, table: DHTable, first: int) -> Wrist:
-        """From the rows first, first+1, first+2 (counted from 0), the last ones that move.
-
-        Raises ValueError when they are not a spherical wrist.
-        """
-        chain = table.chain
+    def of(cls, chain: Chain, first: int) -> Wrist:
+        """From a chain whose rows first, first+1, first+2 (counted from 0) are the last that move: see `demand_wrist`."""
         i, j, k = first, first + 1, first + 2
-        square = abs(chain.cos_alpha[j]) < 1e-12 and abs(chain.cos_alpha[k]) < 1e-12
-        meeting = chain.a[j] == chain.a[k] == chain.fixed[j] == 0.0
-        if not square or not meeting or chain.prismatic[first : first + 3].any():
-            raise ValueError("a spherical wrist has three revolute axes, square, in one point")
         s4, s5 = np.sign(chain.sin_alpha[[j, k]])
         centre_to_tool = np.diag([1.0, -s4 * s5, -s4 * s5, 1.0])
         centre_to_tool[2, 3] = -s4 * s5 * chain.fixed[k]  # d6, along axis 6
@@ -353,6 +346,17 @@ class Wrist:
         return "wrist flipped" if flipped else "wrist unflipped"
 
 
+def demand_wrist(chain: Chain, first: int) -> None:
+    """Raises ValueError unless rows first, first+1, first+2 (counted from 0) of a table are a spherical wrist."""
+    i, j, k = first, first + 1, first + 2
+    demand_kinds(chain, [0, 0, 0], first)
+    for row in (j, k):
+        demand_square(chain, row)
+    for letter, length in ((f"a_{j}", chain.a[j]), (f"a_{k}", chain.a[k]), (f"d_{k}", chain.fixed[j])):
+        if length:
+            raise ValueError(f"axes {i + 1}, {j + 1} and {k + 1} do not meet in one point: {letter} = {length:.6g} m")
+
+
 class WristedArm(InverseModel):
     """An elbow arm with a spherical wrist: six revolute joints, at most 8 solutions.
 
@@ -368,13 +372,15 @@ class WristedArm(InverseModel):
     def __init__(self, table: DHTable) -> None:
         super().__init__(table)
         self.anchors = {Flag.FREE_FIRST: (0,), Flag.FREE_PLANE: (1,)}
-        chain = table.chain
-        self.arm = ArmGeometry.of(table, chain.row_matrix(3, 0.0)[:3, 3])
+        chain = self.chain
         self.map = JointMap.of(chain)
-        self.wrist = Wrist.of(table, first=3)
+        demand_elbow(table.chain)
+        demand_wrist(table.chain, first=3)
+        self.arm = ArmGeometry.of(chain, chain.row_matrix(3, 0.0)[:3, 3])
+        self.wrist = Wrist.of(chain, first=3)
         self.line = self.wrist.line
-        if not (self.arm.upper and self.arm.fore):
-            raise ValueError("an elbow arm needs an upper arm and a forearm")
+        demand_length(self.arm.upper, "the upper arm", "a_2")
+        demand_length(abs(self.arm.fore), "the forearm", "the wrist centre's distance from axis 3")
 
     def closed_form(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Branches:
         hand = self.arm.to_arm @ poses @ self.wrist.to_hand
@@ -423,8 +429,9 @@ class WristAlone(InverseModel):
     def __init__(self, table: DHTable) -> None:
         super().__init__(table)
         self.anchors = {}
-        chain = table.chain
-        self.wrist = Wrist.of(table, first=0)
+        chain = self.chain
+        demand_wrist(table.chain, first=0)
+        self.wrist = Wrist.of(chain, first=0)
         self.line = self.wrist.line
         first = chain.row_matrix(0, 0.0)
         self._to_centre = chain.base.copy()

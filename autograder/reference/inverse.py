@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from dhkit.geometry import wrap
 
 from .forward import Chain
+from .gauge import canonical
 from .limits import clipped, within_limits
 from .solutions import Batch, Nearest, Solutions
 from .status import Failure, Flag
@@ -56,10 +57,12 @@ class JointMap:
     def of(cls, chain: Chain) -> JointMap:
         """The map of a chain. Raises ValueError unless joint i alone, with factor +-1, moves row i."""
         n = chain.joints
-        square = chain.coupling[:n]
-        sign = np.diag(square)
-        if chain.coupling[n:].any() or (square != np.diag(sign)).any() or (sign**2 != 1).any():
-            raise ValueError("this inverse model needs joint i alone, with factor +-1, in row i")
+        sign = np.diag(chain.coupling[:n])
+        for row, found in enumerate(chain.coupling):
+            alone = row < n and abs(sign[row]) == 1 and np.count_nonzero(found) == 1
+            if not alone and (row < n or found.any()):
+                drivers = " and ".join(f"{found[j]:g} q{j + 1}" for j in np.flatnonzero(found)) or "no joint"
+                raise ValueError(f"row {row + 1} is moved by {drivers}, not by q{row + 1} or -q{row + 1} alone")
         return cls(sign, chain.offset[:n])
 
     def row(self, index: int, near: np.ndarray | None) -> np.ndarray | float:
@@ -106,8 +109,9 @@ class InverseModel(ABC):
         """Raises ValueError, in words, when the table is not of the model's kind of robot."""
         self.joints = table.chain.joints
         if self.expected_joints not in (None, self.joints):
-            raise ValueError(f"expected a robot with {self.expected_joints} joints, found {self.joints}")
+            raise ValueError(f"it has {self.joints} joints, not {self.expected_joints}")
         self.limits = table.limits
+        self.chain = canonical(table.chain)
 
     @abstractmethod
     def closed_form(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Branches:

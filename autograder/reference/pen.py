@@ -8,12 +8,14 @@ they have a solution only on a surface, a family of postures each time.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from dhkit.geometry import wrap
 
-from .elbow import ArmGeometry
-from .inverse import Branches, InverseModel, translations
+from .elbow import ArmGeometry, demand_elbow
+from .inverse import Branches, InverseModel, JointMap, translations
 from .status import Failure, Flag
 from .tables import DHTable
 
@@ -31,38 +33,39 @@ class PenArm(InverseModel):
     expected_joints = 3
     branch_count = 2
     revolute = (0, 1, 2)
-    line = (1, 2, 1, 1)
 
     def __init__(self, table: DHTable) -> None:
         super().__init__(table)
         self.anchors = {Flag.FREE_FIRST: (0,), Flag.FREE_PLANE: (1, 2)}
-        chain = table.chain
-        self.arm = ArmGeometry.of(table, chain.tail(2)[:3, 3])
-        drives = chain.coupling[:3]
-        expected = [[1, 0, 0], [drives[1, 0], 1, 0], [0, 0, 1]]
-        if self.arm.upper or not np.array_equal(drives, expected):
-            raise ValueError("the pen robot has axes 2 and 3 on one line, driven by q2 and q3")
-        self._offset = chain.offset[:3]
-        self._from_first = drives[1, 0]
+        chain = self.chain
+        demand_elbow(table.chain)
+        self.arm = ArmGeometry.of(chain, chain.tail(2)[:3, 3])
+        if self.arm.upper:
+            raise ValueError(f"axes 2 and 3 are not one line: a_2 = {table.chain.a[2]:.6g} m")
+        # Row 2 may follow joint 1 too, which leaves the other rows one joint each.
+        self._from_first = chain.coupling[1, 0]
+        follows = np.zeros_like(chain.coupling)
+        follows[1, 0] = self._from_first
+        self.map = JointMap.of(replace(chain, coupling=chain.coupling - follows))
+        same = int(self.map.sign[1] * self.map.sign[2])
+        self.line = (1, 2, same, same)
 
     def pose(self, task: np.ndarray) -> np.ndarray:
         return translations(task)
 
     def closed_form(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Branches:
         point = self.arm.to_arm[:3] @ poses[:, :, 3].T
-        anchor = self._offset[0] + (0.0 if near is None else near[0])
-        branches, tip = self.arm.in_plane(point, anchor, tol)
+        branches, tip = self.arm.in_plane(point, self.map.row(0, near), tol)
         pen = abs(self.arm.fore)
         off = np.abs(np.abs(tip) - pen)
         valid = branches.valid & (off <= tol)
         q = np.zeros((3, 2, len(poses)))
-        q[0] = np.angle(branches.phasor) - self._offset[0]
-        both = np.angle(tip) - np.angle(self.arm.fore) - self._offset[1:].sum()
-        both = both - self._from_first * q[0]
+        q[0] = self.map.joint(0, np.angle(branches.phasor))
+        both = np.angle(tip) - np.angle(self.arm.fore)
         if near is not None:
             q[1] = near[1]
         if pen:
-            q[2] = both - q[1]
+            q[2] = self.map.joint(2, both - self._from_first * q[0] - self.map.row(1, q))
             flags = branches.flags | Flag.FREE_LINE
         else:
             q[2] = 0.0 if near is None else near[2]

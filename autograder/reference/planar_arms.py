@@ -10,6 +10,7 @@ import numpy as np
 
 from dhkit.geometry import SAME_LENGTH, phasor, rotation, two_link, wrap
 
+from .gauge import demand_kinds, demand_length, demand_parallel
 from .inverse import Branches, InverseModel, JointMap, translations
 from .status import Failure, Flag, two_link_flags
 from .tables import DHTable
@@ -32,18 +33,24 @@ class PlanarArm(InverseModel):
 
     def __init__(self, table: DHTable) -> None:
         super().__init__(table)
-        chain = table.chain
+        chain = self.chain
         n = chain.joints
-        straight = (chain.cos_alpha[1:] > 1.0 - 1e-12).all() and not chain.prismatic[:n].any()
-        tail = chain.tail(n - 1)
-        if n < 2 or not straight or abs(tail[2, 2] - 1.0) > 1e-12:
-            raise ValueError("a planar arm has two or more revolute joints with parallel axes")
-        self.revolute = tuple(range(n))
+        if n < 2:
+            raise ValueError("it has fewer than two joints")
         self.map = JointMap.of(chain)
+        demand_kinds(table.chain, [0] * n)
+        for row in range(1, n):
+            demand_parallel(table.chain, row)
+        tail = chain.tail(n - 1)
+        if abs(abs(tail[2, 2]) - 1.0) > 1e-12:
+            tilt = np.degrees(np.arccos(tail[2, 2]))
+            raise ValueError(f"the z axis of its tool is tilted by {tilt:.6g} degrees from the joint axes")
+        self.revolute = tuple(range(n))
         height = chain.fixed[1:n].sum() + tail[2, 3]
         plane = chain.base @ chain.row_matrix(0, 0.0)
         plane[:3, 3] += height * plane[:3, 2]
         self._to_plane = np.linalg.inv(plane)
+        self._up = np.sign(tail[2, 2])  # -1 for a tool that is held upside down
         self._tip = complex(tail[0, 3], tail[1, 3])
         self._tip_turn = np.arctan2(tail[1, 0], tail[0, 0])
         if n == 2:
@@ -52,8 +59,8 @@ class PlanarArm(InverseModel):
         else:
             self.task = "x, y, phi"
             self.links = chain.a[1:n]
-        if (self.links <= 0).any():
-            raise ValueError("the links of a planar arm have positive lengths")
+        for i, link in enumerate(self.links, start=1):
+            demand_length(link, f"link {i}", f"a_{i}" if i < n else "the tool's x, y")
         self._spare = max(n - 3, 0)
         self.anchors = {Flag.FREE_PLANE: (self._spare,)}
         if self._spare:
@@ -69,12 +76,12 @@ class PlanarArm(InverseModel):
             raise ValueError(f"expected the coordinates {self.task}, found {task.shape[1]} numbers")
         poses = translations(task[:, :2])
         if self.joints > 2:
-            poses[:, :3, :3] = rotation("z", task[:, 2])
+            poses[:, :3, :3] = rotation("z", task[:, 2]) @ np.diag([1.0, self._up, self._up])
         return poses
 
     def closed_form(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Branches:
         flat = self._to_plane @ poses
-        target, height, tilt, heading = _flattened(flat)
+        target, height, tilt, heading = _flattened(flat, self._up)
         off = np.abs(height)
         bend_offset = np.angle(self._tip) if self.joints == 2 else 0.0
         if self.joints == 2:
@@ -147,22 +154,21 @@ class Scara(InverseModel):
 
     def __init__(self, table: DHTable) -> None:
         super().__init__(table)
-        chain = table.chain
-        kinds = [False, False, True, False]
-        upright = chain.cos_alpha[1:3] > 1.0 - 1e-12
-        opposite = np.abs(chain.sin_alpha[3:]) < 1e-12
-        if list(chain.prismatic[:4]) != kinds or not upright.all() or not opposite.all():
-            raise ValueError("a SCARA has parallel axes: revolute, revolute, prismatic, revolute")
-        if chain.a[3] or (chain.a[1:3] <= 0).any():
-            raise ValueError("a SCARA has two links of positive length")
+        chain = self.chain
+        self.map = JointMap.of(chain)
+        demand_kinds(table.chain, [0, 0, 1, 0])
+        for row in range(1, 4):
+            demand_parallel(table.chain, row)
+        for row in (1, 2):
+            demand_length(chain.a[row], f"link {row}", f"a_{row}")
+        if chain.a[3]:
+            raise ValueError(f"axis 4 stands beside the quill: a_3 = {table.chain.a[3]:.6g} m")
         self.anchors = {Flag.FREE_PLANE: (0,)}
         self.links = chain.a[1:3]
-        self.map = JointMap.of(chain)
-        self._down = np.sign(chain.cos_alpha[3])  # -1 when axis 4 points against axis 1
         self._to_base = np.linalg.inv(chain.base @ chain.row_matrix(0, 0.0))
         self._to_flange = np.linalg.inv(chain.tail(3))
         self._quill_turn = chain.fixed[2]
-        self._height = chain.fixed[1] + self._down * chain.fixed[3]
+        self._height = chain.fixed[1] + chain.fixed[3]
         # The tool at all joints zero gives its posture at omega = 0.
         self._home = chain.forward(np.zeros(4))
         turn = np.arctan2(self._home[1, 0], self._home[0, 0])
@@ -183,14 +189,14 @@ class Scara(InverseModel):
 
     def closed_form(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Branches:
         flange = self._to_base @ poses @ self._to_flange
-        target, height, tilt, heading = _flattened(flange, self._down)
+        target, height, tilt, heading = _flattened(flange)
         arm = two_link(target, self.links[0], self.links[1], self.map.row(0, near), tol)
         q = np.empty((4, 2, len(poses)))
         q[0] = self.map.joint(0, arm.first)
         q[1] = self.map.joint(1, arm.bend)
         q[2] = self.map.joint(2, height - self._height)
         last = heading - arm.first - arm.bend - self._quill_turn
-        q[3] = self.map.joint(3, self._down * last)
+        q[3] = self.map.joint(3, last)
         failing = [tilt > tol, arm.beyond > tol, arm.short > tol]
         return Branches(
             q,
