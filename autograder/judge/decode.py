@@ -7,10 +7,10 @@ work is bounded before it is done: number of nodes, depth, digits, length of tex
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
-from dhkit.wire import ARITIES, FORMAT, MAX_DEPTH, MAX_DIGITS, MAX_NODES, MAX_TEXT
+from dhkit.wire import ARITIES, FORMAT, MAX_ASSUMED, MAX_DEPTH, MAX_DIGITS, MAX_NODES, MAX_TEXT
 
 
 class Malformed(ValueError):
@@ -88,10 +88,11 @@ Value = Expression | Text | Record | Function | Failure | Blank | tuple
 
 @dataclass(frozen=True)
 class Decoded:
-    """An answer that was found to be within the bounds: what it says, and the node it was."""
+    """An answer that was found to be within the bounds: what it says, the node it was, the symbols assumed to be positive."""
 
     value: Value
     node: object = field(compare=False, repr=False)
+    assumed: tuple[str, ...] = field(default=(), compare=False)
 
 
 def decode(node: object) -> Decoded:
@@ -101,7 +102,11 @@ def decode(node: object) -> Decoded:
 
 def decode_answer(packet: object, question: str) -> Decoded:
     """The answer inside a packet of `dhkit.check`; `Malformed` if it is not one for `question`."""
-    return decode(_content(packet, question, "answer"))
+    answer = decode(_content(packet, question, "answer"))
+    assumed = packet.get("assumed", []) if isinstance(packet, dict) else []
+    if not isinstance(assumed, list) or len(assumed) > MAX_ASSUMED:
+        raise Malformed("the answer was not handed in by check()")
+    return replace(answer, assumed=tuple(map(_text, assumed)))
 
 
 def decode_student(packet: object) -> str | None:
@@ -120,7 +125,7 @@ def decode_probes(packet: object, question: str, count: int) -> tuple[Decoded, .
 
 
 def _content(packet: object, question: str, key: str) -> object:
-    if not isinstance(packet, dict) or packet.keys() - {"student"} != {"format", "question", key}:
+    if not isinstance(packet, dict) or packet.keys() - {"student", "assumed"} != {"format", "question", key}:
         raise Malformed("the answer was not handed in by check()")
     if type(packet["format"]) is not int or packet["format"] != FORMAT:
         raise Malformed("the answer was written by another version of dhkit")
@@ -210,10 +215,12 @@ class _Reader:
         arity = ARITIES[content[0]]
         if arity is not None and len(content) != arity + 1:
             raise Malformed(f"{content[0]} has the wrong number of arguments")
+        if content[0] == "Piecewise" and len(content) % 2 == 0:
+            raise Malformed("Piecewise has a value without its condition")
         args = [self.value(item, depth + 1) for item in content[1:]]
         expressions = tuple(arg for arg in args if isinstance(arg, Expression))
         if len(expressions) < len(args):
-            raise Malformed("the answer is not in the wire format")
+            raise Malformed("there is a list, a text or a gap inside an expression")
         return Call(content[0], expressions)
 
     def _dict(self, content: object, depth: int) -> Record:

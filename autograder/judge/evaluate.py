@@ -21,6 +21,12 @@ _MPMATH = {
     "atan2": lambda y, x: mpmath.atan2(mpmath.re(y), mpmath.re(x)),
     "exp": mpmath.exp, "log": mpmath.log, "Abs": abs, "sign": mpmath.sign,
     "Max": lambda *xs: max(map(mpmath.re, xs)), "Min": lambda *xs: min(map(mpmath.re, xs)),
+    "re": mpmath.re, "im": mpmath.im, "arg": mpmath.arg, "conjugate": mpmath.conj,
+    "floor": lambda x: mpmath.floor(mpmath.re(x)), "ceiling": lambda x: mpmath.ceil(mpmath.re(x)),
+    "lt": lambda x, y: mpmath.mpf(mpmath.re(x) < mpmath.re(y)), "le": lambda x, y: mpmath.mpf(mpmath.re(x) <= mpmath.re(y)),
+    "gt": lambda x, y: mpmath.mpf(mpmath.re(x) > mpmath.re(y)), "ge": lambda x, y: mpmath.mpf(mpmath.re(x) >= mpmath.re(y)),
+    "eq": lambda x, y: mpmath.mpf(x == y), "ne": lambda x, y: mpmath.mpf(x != y),
+    "and": min, "or": max, "not": lambda x: 1 - x,
     "Mod": lambda x, y: mpmath.re(x) - mpmath.re(y) * mpmath.floor(mpmath.re(x) / mpmath.re(y)),
     "add": lambda *xs: reduce(operator.add, xs), "mul": lambda *xs: reduce(operator.mul, xs), "pow": operator.pow,
 }  # fmt: skip
@@ -77,6 +83,8 @@ def _evaluate_exactly(expression: Expression, point: Mapping[str, float]):
             if abs(power) > _MAX_EXPONENT:
                 raise OverflowError
             return _evaluate_exactly(base, point) ** power
+        case Call("Piecewise", args):
+            return _first_that_holds(args, point)
         case Call(function, args):
             values = [_evaluate_exactly(arg, point) for arg in args]
             if function not in ("add", "mul") and any(abs(value) > _MAX_ARGUMENT for value in values):
@@ -84,6 +92,14 @@ def _evaluate_exactly(expression: Expression, point: Mapping[str, float]):
             return _MPMATH[function](*values)
         case Foreign():
             raise ValueError
+
+
+def _first_that_holds(parts: tuple[Expression, ...], point: Mapping[str, float]):
+    """The value before the first condition that holds; `ValueError` if none does."""
+    for value, condition in zip(parts[::2], parts[1::2], strict=True):
+        if _evaluate_exactly(condition, point) == 1:
+            return _evaluate_exactly(value, point)
+    raise ValueError
 
 
 def symbols(expression: Expression) -> frozenset[str]:

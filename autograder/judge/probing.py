@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .almost import Almost, find_almost, verdict_on, worst
 from .decode import Decoded, Failure, Malformed
 from .expected import expect_result, read_result
 from .kinds import Comparison, Setting
 from .kinds import compare as compare_answers
 from .question import Question, Way
-from .rounding import decimals_kept, rounded_too_far
 from .slips import explain_results
 from .tree import Verdict, nearest, walk
 from .written import plain, written
@@ -57,11 +57,8 @@ def judge_results(question: Question, arguments: list[list], results: Sequence[D
         for case, asked in cases.items()
         if case not in wrong
     ]
-    kept = [
-        _decimals_kept(question, student, call) for asked in cases.values() for call in asked if not call.compared.equal
-    ]
-    if kept and (fewest := min(kept)) > 0:
-        return rounded_too_far(form, fewest)
+    if wrong and (almost := worst(_almost(question, student, call) for call in _not_equal(cases))):
+        return verdict_on(form, almost)
     remarks = tuple(_describe(case, call) for case, call in wrong.items())
     verdict = walk(
         question,
@@ -105,18 +102,22 @@ def _compare_with(question: Question, result: object, other: object, setting: Se
     return compare_answers(question.returns, result, other, setting)
 
 
-def _decimals_kept(question: Question, student: str, call: Call) -> int:
-    """To how many decimals a result is right that is not right as it is; 0 if to none."""
+def _not_equal(cases: Mapping[str, list[Call]]) -> Iterator[Call]:
+    return (call for asked in cases.values() for call in asked if not call.compared.equal)
+
+
+def _almost(question: Question, student: str, call: Call) -> Almost | None:
+    """What keeps a result from being right that is not right as it is."""
     expected = expect_result(question, (), student, call.args)
     others = [other for other in expected.forms if not isinstance(other, Malformed)]
     if isinstance(call.result, Malformed) or not others:
-        return 0
+        return None
     setting = replace(question.setting(student, *call.args), family=expected.family)
 
     def beside(given: object, asked: Setting) -> Comparison:
         return nearest(compare_answers(question.returns, given, other, asked) for other in others)
 
-    return decimals_kept(question.returns, call.result, setting, beside) or 0
+    return find_almost(question.returns, call.result, setting, beside)
 
 
 def _count(answers: list[set[str]]) -> int:

@@ -144,7 +144,8 @@ class Question:
     places : bool
         Whether feedback may tell which parts of an answer are wrong; not where just this is the answer.
     angles : tuple of int
-        Entries compared modulo 2 pi (vector entries or joints; ``(0,)`` for a single expression).
+        Entries compared modulo 2 pi (vector entries, joints, cells of a matrix row after row; ``(0,)`` for a single
+        expression).
     tolerance : float, optional
         Largest accepted difference, relative to the larger of 1 and the reference's size; metres for a point cloud. It
         is one unit of the last decimal that the public half asks for, unless it is given.

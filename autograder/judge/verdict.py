@@ -12,6 +12,7 @@ from dhkit.forms import Form
 from dhkit.nodes import is_blank
 from dhkit.variants import NOBODY, normal_form
 
+from .almost import find_almost, verdict_on
 from .blind import beyond_guessing
 from .decode import Decoded, Failure, Malformed, decode_answer, decode_probes, decode_student
 from .expected import expect_answer
@@ -20,7 +21,6 @@ from .kinds import compare as compare_answers
 from .kinds.entries import depends_on
 from .probing import judge_results
 from .question import Question, Way
-from .rounding import decimals_kept, rounded_too_far
 from .slips import explain_answer, locate
 from .tree import Verdict, nearest, walk
 from .written import plain
@@ -146,8 +146,10 @@ def _judge_data(question: Question, decoded: Decoded, student: str, earlier: Map
         against_reference = replace(against_reference, remarks=())
     if not against_reference.equal and _follows(question, answer, setting, student, earlier):
         return Verdict(1.0, "right_from_earlier", FORGIVEN)
-    if not against_reference.equal and (places := decimals_kept(form, answer, setting, beside_reference)) is not None:
-        return rounded_too_far(form, places)
+    if not against_reference.equal and (
+        almost := find_almost(form, answer, setting, beside_reference, decoded.assumed)
+    ):
+        return verdict_on(form, almost, tuple(map(plain, decoded.assumed)))
     if not against_reference.remarks and question.places and (place := locate(question, answer, student, setting)):
         against_reference = replace(against_reference, remarks=(place,))
     return walk(

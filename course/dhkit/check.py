@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 
 from . import public, variants, wire
 from .forms import Form
@@ -18,6 +19,8 @@ from .home.verdict import Verdict, judge_at_home
 from .nodes import blanks
 from .notice import Line, Notice, show
 from .public_checks import run_public_check
+
+_ASSUMED = "declared as positive: {}; SymPy simplifies with that, and turns atan2(y, x) into atan(y/x)"
 
 _functions: dict[str, Callable] = {}
 
@@ -39,15 +42,20 @@ def check(id: str, answer: object = ...) -> None:
         If there is no such question; the message names the nearest ones.
     """
     question = public.find(id)
-    node = wire.encode(answer)
+    node, assumed = wire.encode_with_assumptions(answer)
     function = answer if callable(answer) else None
     if function is not None:
         _functions[id] = function
     student = variants.typed(question.exercise)
     whose = {} if student is None else {"student": wire.encode(student)}
+    if assumed:
+        whose["assumed"] = assumed
     found = judge_at_home(question, node, function)
     note(id, found)
-    show(_notice(question, node, function, found), {wire.MIME: wire.packet(id, answer=node, **whose)})
+    notice = _notice(question, node, function, found)
+    if assumed and found.state not in ("right", "blank", "form"):
+        notice = replace(notice, lines=(*notice.lines, Line(None, _ASSUMED.format(", ".join(assumed)))))
+    show(notice, {wire.MIME: wire.packet(id, answer=node, **whose)})
 
 
 def hint(id: str, level: int = 1) -> None:

@@ -259,11 +259,11 @@ def chain_products(transforms: ArrayLike) -> np.ndarray:
 
     Parameters
     ----------
-    transforms : array_like, shape (n, m, m)
+    transforms : array_like, shape (n, ..., m, m)
 
     Returns
     -------
-    ndarray, shape (n + 1, m, m)
+    ndarray, shape (n + 1, ..., m, m)
     """
     transforms = np.asarray(transforms, dtype=float)
     frames = np.empty((len(transforms) + 1, *transforms.shape[1:]))

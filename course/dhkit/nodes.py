@@ -48,6 +48,16 @@ def keyed(node: object) -> dict[str, object] | None:
     return items if len(items) == len(node["dict"]) else None
 
 
+def alone(node: object) -> object:
+    """What stands alone in lists or dictionaries, however many are around it; any other node as it is."""
+    while True:
+        match node:
+            case [only] | {"dict": [[_, only]]}:
+                node = only
+            case _:
+                return node
+
+
 def in_order(node: object, names: Sequence[str]) -> object:
     """A dictionary with exactly the keys `names` as a list in their order; anything else as it is."""
     items = keyed(node)

@@ -16,6 +16,14 @@ def _real(x: Any) -> Any:
     return np.where(np.abs(np.imag(x)) <= 1e-12 * np.abs(x), np.real(x), np.nan)
 
 
+def _first_that_holds(parts: Any) -> Any:
+    """The value before the first condition that holds, nan where none does; values and conditions take turns."""
+    result: Any = np.complex128(np.nan)
+    for value, holds in zip(parts[-2::-2], parts[::-2], strict=True):
+        result = np.where(np.real(holds) == 1, value, result)
+    return result
+
+
 OPERATIONS: dict[str, Callable] = {
     "sin": np.sin, "cos": np.cos, "tan": np.tan,
     "cot": lambda x: 1 / np.tan(x), "sec": lambda x: 1 / np.cos(x), "csc": lambda x: 1 / np.sin(x),
@@ -23,6 +31,13 @@ OPERATIONS: dict[str, Callable] = {
     "atan2": lambda y, x: np.arctan2(_real(y), _real(x)) + 0j,
     "exp": np.exp, "log": np.log, "Abs": lambda x: np.abs(x) + 0j, "sign": lambda x: np.sign(_real(x)) + 0j,
     "Max": lambda *xs: reduce(np.maximum, map(_real, xs)) + 0j, "Min": lambda *xs: reduce(np.minimum, map(_real, xs)) + 0j,
+    "re": lambda x: np.real(x) + 0j, "im": lambda x: np.imag(x) + 0j, "arg": lambda x: np.angle(x) + 0j, "conjugate": np.conjugate,
+    "floor": lambda x: np.floor(_real(x)) + 0j, "ceiling": lambda x: np.ceil(_real(x)) + 0j,
+    "lt": lambda x, y: np.less(_real(x), _real(y)) + 0j, "le": lambda x, y: np.less_equal(_real(x), _real(y)) + 0j,
+    "gt": lambda x, y: np.greater(_real(x), _real(y)) + 0j, "ge": lambda x, y: np.greater_equal(_real(x), _real(y)) + 0j,
+    "eq": lambda x, y: np.equal(x, y) + 0j, "ne": lambda x, y: np.not_equal(x, y) + 0j,
+    "and": lambda *xs: reduce(operator.mul, xs), "or": lambda *xs: reduce(np.maximum, map(_real, xs)) + 0j,
+    "not": lambda x: 1 - x, "Piecewise": lambda *parts: _first_that_holds(parts),
     "Mod": lambda x, y: np.mod(_real(x), _real(y)) + 0j,
     "add": lambda *xs: reduce(operator.add, xs), "mul": lambda *xs: reduce(operator.mul, xs), "pow": np.power,
 }  # fmt: skip

@@ -7,7 +7,7 @@ JSON                    meaning
 ======================  =====================================================
 number, true, false     a finite float, a small integer, a truth value
 string                  text
-array                   list, tuple, set, NumPy array or SymPy matrix (nested)
+array                   list, tuple, set, range, generator, NumPy array or SymPy matrix (nested)
 ``{"blank": true}``     not attempted: ``...`` or ``None``
 ``{"int": "123"}``      an integer beyond 2**53
 ``{"float": "nan"}``    ``nan``, ``inf`` or ``-inf``
@@ -15,7 +15,8 @@ array                   list, tuple, set, NumPy array or SymPy matrix (nested)
 ``{"rat": [p, q]}``     the fraction p / q
 ``{"const": "pi"}``     ``pi``, ``E`` or ``I``
 ``{"sym": "t1"}``       a symbol
-``{"call": [f, ...]}``  ``add``, ``mul``, ``pow`` or one of `FUNCTIONS`, then its arguments
+``{"call": [f, ...]}``  ``add``, ``mul``, ``pow`` or one of `FUNCTIONS`, then its arguments; ``Piecewise``, then values
+                        and conditions in turn (see `CONDITIONS`)
 ``{"dict": [[k, v]]}``  a dictionary, keys as text
 ``{"function": name}``  something that can be called
 ``{"large": words}``    what is beyond the bounds below, described only
@@ -30,11 +31,13 @@ from __future__ import annotations
 
 import math
 import traceback
-from collections.abc import Iterable, Mapping
+from collections import deque
+from collections.abc import ItemsView, Iterable, Iterator, KeysView, Mapping, ValuesView
 from numbers import Integral, Rational, Real
 
 import numpy as np
 import sympy
+from sympy.core.function import AppliedUndef
 
 MIME = "application/vnd.dhkit.answer+json"
 FORMAT = 1
@@ -43,12 +46,18 @@ MAX_NODES = 25_000
 MAX_DEPTH = 60
 MAX_DIGITS = 300
 MAX_TEXT = 1000
+MAX_ASSUMED = 50
 
 FUNCTIONS = ("sin", "cos", "tan", "cot", "sec", "csc", "asin", "acos", "atan", "acot", "atan2",
-             "exp", "log", "Abs", "sign", "Max", "Min", "Mod")  # fmt: skip
+             "exp", "log", "Abs", "sign", "re", "im", "arg", "conjugate", "floor", "ceiling", "Max", "Min", "Mod")  # fmt: skip
+
+CONDITIONS = {"StrictLessThan": "lt", "LessThan": "le", "StrictGreaterThan": "gt", "GreaterThan": "ge", "Equality": "eq",
+              "Unequality": "ne", "And": "and", "Or": "or", "Not": "not"}  # fmt: skip
+"""SymPy's names of what may be a condition in a ``Piecewise``, and the wire's: 1 where it holds, else 0."""
 
 ARITIES: dict[str, int | None] = {
-    "add": None, "mul": None, "pow": 2, **dict.fromkeys(FUNCTIONS, 1), "atan2": 2, "Mod": 2, "Max": None, "Min": None
+    "add": None, "mul": None, "pow": 2, **dict.fromkeys(FUNCTIONS, 1), "atan2": 2, "Mod": 2, "Max": None, "Min": None,
+    "Piecewise": None, **dict.fromkeys(CONDITIONS.values(), 2), "and": None, "or": None, "not": 1,
 }  # fmt: skip
 """Number of arguments of everything that can be called; None for one or more."""
 
@@ -57,16 +66,23 @@ _CONSTANTS = {sympy.pi: "pi", sympy.E: "E", sympy.I: "I"}
 
 
 def packet(question: str, **content: object) -> dict[str, object]:
-    """The JSON object displayed under `MIME` for one question: ``answer`` or ``probes``, and perhaps the ``student`` typed."""
+    """The JSON object displayed under `MIME` for one question: ``answer`` or ``probes``, perhaps the ``student``
+    typed, and the symbols ``assumed`` to be positive."""
     return {"format": FORMAT, "question": question, **content}
 
 
 def encode(value: object) -> object:
     """The node of any Python object a student may hand in (see the table above). Never raises."""
+    return encode_with_assumptions(value)[0]
+
+
+def encode_with_assumptions(value: object) -> tuple[object, list[str]]:
+    """The node, and the names of the symbols declared positive: SymPy has simplified the answer with that."""
+    encoder = _Encoder()
     try:
-        return _Encoder().node(value)
+        return encoder.node(value), sorted(encoder.positive)[:MAX_ASSUMED]
     except _TooLarge as bound:
-        return {"large": f"{_extent(value)}, {bound}"}
+        return {"large": f"{_extent(value)}, {bound}"}, []
 
 
 def failure(error: BaseException) -> str:
@@ -83,6 +99,7 @@ class _Encoder:
 
     def __init__(self) -> None:
         self.left = MAX_NODES
+        self.positive: set[str] = set()
 
     def node(self, value: object, depth: int = 0) -> object:
         self._count(1, depth)
@@ -121,8 +138,10 @@ class _Encoder:
         if isinstance(value, Mapping):
             self._expect(len(value))
             return {"dict": [[_text(str(key)), self.node(item, depth + 1)] for key, item in value.items()]}
-        if isinstance(value, (list, tuple, set, frozenset)):
+        if isinstance(value, (list, tuple, set, frozenset, range, deque, KeysView, ValuesView, ItemsView)):
             self._expect(len(value))
+            return self._entries(value, depth)
+        if isinstance(value, Iterator):
             return self._entries(value, depth)
         if callable(value):
             return {"function": _text(getattr(value, "__name__", type(value).__name__))}
@@ -183,9 +202,26 @@ class _Encoder:
         if value in (sympy.oo, -sympy.oo, sympy.nan, sympy.zoo):
             return {"float": {sympy.oo: "inf", -sympy.oo: "-inf"}.get(value, "nan")}
         if isinstance(value, sympy.Symbol):
+            if value.is_nonnegative:
+                self.positive.add(_text(value.name))
             return {"sym": _text(value.name)}
-        if isinstance(value, sympy.Tuple):
+        if isinstance(value, AppliedUndef) and type(value).__name__ not in FUNCTIONS and _is_of_time(value):
+            return {"sym": _text(type(value).__name__)}
+        if isinstance(value, sympy.Equality):
+            return self._again(_solved(value), depth)
+        if isinstance(value, sympy.Piecewise):
+            parts = [
+                part
+                for piece in value.args
+                for part in (self.node(piece.expr, depth + 1), self._condition(piece.cond, depth + 1))
+            ]
+            return {"call": ["Piecewise", *parts]}
+        if isinstance(value, (sympy.Tuple, sympy.FiniteSet)):
             return self._entries(value, depth)
+        if isinstance(value, sympy.Dict):
+            return self._again(dict(value.items()), depth)
+        if value is sympy.S.EmptySet:
+            return []
         if isinstance(value, (sympy.Add, sympy.Mul, sympy.Pow)):
             return self._call(type(value).__name__.lower(), value, depth)
         if isinstance(value, sympy.exp):
@@ -196,7 +232,32 @@ class _Encoder:
             return self._again(value.args[0], depth)
         if isinstance(value, sympy.logic.boolalg.BooleanAtom):
             return bool(value)
+        if isinstance(value, (sympy.CRootOf, sympy.NumberSymbol)) or (
+            isinstance(value, sympy.Function) and value.is_number
+        ):
+            return self._again(complex(value.evalf(17)) if value.is_real is False else float(value.evalf(17)), depth)
         return _unknown(value)
+
+    def _condition(self, value: sympy.Basic, depth: int) -> object:
+        self._count(1, depth)
+        if isinstance(value, sympy.logic.boolalg.BooleanAtom):
+            return bool(value)
+        name = CONDITIONS.get(type(value).__name__)
+        if name is None:
+            return _unknown(value)
+        part = self._condition if name in ("and", "or", "not") else self.node
+        return {"call": [name, *(part(arg, depth + 1) for arg in value.args)]}
+
+
+def _is_of_time(value: sympy.Basic) -> bool:
+    """Whether an undefined function is a joint variable of ``dynamicsymbols``: of one symbol, the time."""
+    return len(value.args) == 1 and isinstance(value.args[0], sympy.Symbol)
+
+
+def _solved(equation: sympy.Equality) -> sympy.Basic:
+    """What an equation says of its symbol, or of zero; else its right-hand side."""
+    left, right = equation.lhs, equation.rhs
+    return left if right == 0 or (isinstance(right, sympy.Symbol) and not isinstance(left, sympy.Symbol)) else right
 
 
 def _unknown(value: object) -> dict:
@@ -228,4 +289,6 @@ def _extent(value: object) -> str:
         return f"an array of shape {' x '.join(map(str, shape))}"
     if isinstance(value, (list, tuple, set, frozenset, Mapping)):
         return f"a list of {len(value)} entries"
+    if isinstance(value, Iterator):
+        return "a generator"
     return "an expression"

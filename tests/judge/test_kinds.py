@@ -192,7 +192,7 @@ def test_no_solution_is_an_answer():
         (EXPRESSION, [1, 2], "shape 2"),
         (EXPRESSION, "t1", "text"),
         (EXPRESSION, object(), "builtins.object"),
-        (EXPRESSION, {"t1": 1}, "dictionary"),
+        (EXPRESSION, {"t1": 1, "t2": 2}, "dictionary"),
         (question("matrix", shape=[2, 2]), [[1, 2], [3]], "different lengths"),
         (question("vector", shape=[3]), [[1, 2, 3], [1, 2, 3]], "2 x 3"),
         (EXPRESSION, 1 / (t1 - t1 + 0 * t2), "the value nan"),

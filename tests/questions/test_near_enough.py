@@ -9,7 +9,7 @@ import sympy
 from answers import STUDENT, entries, right, verdict
 
 from autograder.judge import Family
-from autograder.judge.rounding import NOTE
+from autograder.judge.almost import ROUNDED as NOTE
 from autograder.questions import exercises
 
 SOLUTIONS = Path(__file__).parents[2] / "solutions"

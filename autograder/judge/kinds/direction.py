@@ -27,4 +27,5 @@ def compare(form: Direction, student: Entries, other: Entries, setting: Setting)
 
 def _unit(vectors: np.ndarray) -> np.ndarray:
     with np.errstate(all="ignore"):
+        vectors = vectors / np.abs(vectors).max(axis=1, keepdims=True)  # the squares of huge ones are beyond float64
         return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)

@@ -117,6 +117,7 @@ def agreement(student: Entries, other: Entries, setting: Setting, turning: Seque
     turning = np.asarray(turning, bool)
     with np.errstate(all="ignore"):
         error = np.abs(difference(theirs, ours, turning)) / np.maximum(1, np.abs(ours))
+    error[theirs == ours] = 0  # also where a size is beyond float64
     agree = (error <= setting.tolerance + setting.slack).all(axis=0)
     # Cancellation in float64 may spoil a right answer; forty digits decide where the values are close, or the reader patient.
     doubtful = ~agree & ((error < 1e-3).all(axis=0) | setting.patient)

@@ -15,6 +15,8 @@ __all__ = ["compare", "read"]
 
 def compare(form: Matrix, student: Entries, other: Entries, setting: Setting) -> Comparison:
     """Cell by cell; of a list of symbolic matrices only those count as right that are so in all cells."""
-    agree = agreement(student, other, setting, np.zeros(len(student.expressions))).reshape(form.shape)
+    agree = agreement(student, other, setting, np.isin(np.arange(len(student.expressions)), setting.angles)).reshape(
+        form.shape
+    )
     parts = agree.all(axis=(1, 2)) if agree.ndim == 3 and form.symbols else agree
     return Comparison(bool(agree.all()), float(parts.mean()), differing_cells(agree))

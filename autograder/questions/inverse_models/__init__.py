@@ -149,6 +149,7 @@ QUESTIONS = (
                 replace_entry(0, 5),
             ),
         ),
+        angles=(3, 5),
     ),
     Question(
         "inverse_models.shoulder",

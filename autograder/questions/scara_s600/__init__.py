@@ -249,6 +249,7 @@ QUESTIONS = (
                 turn_axis_3_over(1),
             ),
         ),
+        angles=tuple(range(1, 16, 2)),
     ),
     Question(
         "scara_s600.cousin",

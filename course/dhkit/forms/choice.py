@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import string
+import unicodedata
 from typing import Annotated
 
 from msgspec import Meta
@@ -10,11 +12,12 @@ from .. import nodes
 from ..schema import unique
 from .base import Fields
 
+_AROUND = string.punctuation + string.whitespace
 Letter = Annotated[str, Meta(pattern="^[A-Z0-9]+$")]
 
 
 class Choice(Fields, frozen=True, kw_only=True):
-    """The letter of one of the options, in capitals or not.
+    """The letter of one of the options, in capitals or not; the list, the brackets or the full stop around it do not count.
 
     Attributes
     ----------
@@ -28,7 +31,11 @@ class Choice(Fields, frozen=True, kw_only=True):
         unique("options", self.options)
 
     def arranged(self, node: object) -> object:
-        return node.strip().upper() if isinstance(node, str) else node
+        node = nodes.alone(node)
+        match node:
+            case str(said) | {"sym": str(said)} | {"const": str(said)}:
+                return unicodedata.normalize("NFKC", said).strip(_AROUND).upper() or said
+        return node
 
     def misfit(self, node: object) -> str | None:
         if not isinstance(node, str):

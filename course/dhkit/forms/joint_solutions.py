@@ -20,7 +20,7 @@ class JointSolutions(Fields, frozen=True, kw_only=True):
     """A list of joint positions; an empty one says that there is no solution.
 
     Each is a list in the order of the joints or a dictionary keyed by their names; one alone may stand without the list
-    around it, and several may be a dictionary of columns.
+    around it, or as a column matrix, and several may be a dictionary of columns.
 
     Attributes
     ----------
@@ -37,13 +37,16 @@ class JointSolutions(Fields, frozen=True, kw_only=True):
 
     def arranged(self, node: object) -> object:
         node = nodes.rows_in_order(node, self.joints)
-        alone = nodes.array_shape(node) == (len(self.joints),)
-        return [node] if alone else node
+        shape, count = nodes.array_shape(node), len(self.joints)
+        if shape == (count, 1) != (1, 1):
+            return [list(nodes.entries(node))]
+        return [node] if shape == (count,) else node
 
     def misfit(self, node: object) -> str | None:
         shape = nodes.array_shape(node)
         if not isinstance(node, list) or (shape != (0,) and (shape is None or shape[1:] != (len(self.joints),))):
-            return nodes.describe(node)
+            turned = shape is not None and len(shape) == 2 and shape[0] == len(self.joints)
+            return nodes.describe(node) + (": each solution is a row, not a column" if turned else "")
         if len(node) > MAX_SOLUTIONS:
             return f"{len(node)} solutions, more than any robot has"
         return nodes.alien(node, ()) or unreal(node)

@@ -25,7 +25,8 @@ class PointCloud(Fields, frozen=True, kw_only=True):
             return f"{nodes.describe(node)}; {MAX_POINTS} points are enough"
         shape = nodes.array_shape(node)
         if not isinstance(node, list) or shape is None or shape[1:] != self.shape:
-            return nodes.describe(node)
+            turned = shape is not None and len(shape) == 2 and shape[:1] == self.shape
+            return nodes.describe(node) + (": each point is a row, not a column" if turned else "")
         if len(node) > MAX_POINTS:
             return f"{len(node)} points; {MAX_POINTS} are enough"
         return nodes.alien(node, ()) or unreal(node)

@@ -16,10 +16,13 @@ class Vector(Symbolic, frozen=True, kw_only=True):
         How many there are, ``[3]`` in the table.
     names : tuple of str
         Names of the entries.
+    unordered : bool
+        Whether the numbers may stand in any order.
     """
 
     shape: tuple[Size]
     names: Names = ()
+    unordered: bool = False
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -31,4 +34,7 @@ class Vector(Symbolic, frozen=True, kw_only=True):
         node = nodes.in_order(node, self.names)
         (count,) = self.shape
         flat = nodes.array_shape(node) in ((count, 1), (1, count))
-        return list(nodes.entries(node)) if flat else node
+        node = list(nodes.entries(node)) if flat else node
+        if self.unordered and isinstance(node, list) and all(isinstance(entry, (int, float)) for entry in node):
+            return sorted(node)
+        return node
