@@ -65,14 +65,14 @@ class ValueAt(PublicCheck, frozen=True, kw_only=True):
     angles : tuple of int
         Entries of a vector that are angles, compared modulo a full turn; ``[0]`` for a single expression. Those of a
         DHm table are known.
-    tolerance : float
+    tolerance : float, optional
     """
 
     at: dict[str, float] = {}
     entry: tuple[Index, ...] | None = None
     equals: Any
     angles: tuple[Index, ...] = ()
-    tolerance: Tolerance = TOLERANCE
+    tolerance: Tolerance | None = None
 
     def fit(self, form: Form) -> None:
         if not isinstance(form, (Number, Symbolic)):
@@ -95,7 +95,7 @@ class ValueAt(PublicCheck, frozen=True, kw_only=True):
         if self.entry is not None:
             place = self.entry if len(self.entry) == found.ndim else np.unravel_index(self.entry[0], found.shape)
             found, angles = found[place], angles[place]
-        return Line(_agree(found, np.array(self.equals, dtype=float), angles, self.tolerance), self.says)
+        return Line(_agree(found, np.array(self.equals, dtype=float), angles, _allowed(self.tolerance, form)), self.says)
 
 
 class RigidTransform(PublicCheck, frozen=True, kw_only=True):
@@ -103,11 +103,10 @@ class RigidTransform(PublicCheck, frozen=True, kw_only=True):
 
     Attributes
     ----------
-    tolerance : float
-        Wider where a statement allows rounded entries.
+    tolerance : float, optional
     """
 
-    tolerance: Tolerance = TOLERANCE
+    tolerance: Tolerance | None = None
 
     def fit(self, form: Form) -> None:
         if not isinstance(form, Matrix) or len(form.shape) != 2 or form.shape[0] != form.shape[1]:
@@ -116,7 +115,7 @@ class RigidTransform(PublicCheck, frozen=True, kw_only=True):
     def run(self, form: Form, node: object, function: Callable | None) -> Line:
         draw = np.random.default_rng(1)
         found = reals(node, {name: draw.uniform(0.2, 1.3) for name in form.symbols})
-        return Line(is_rigid(found, self.tolerance), self.says)
+        return Line(is_rigid(found, _allowed(self.tolerance, form)), self.says)
 
 
 class Returns(PublicCheck, frozen=True, kw_only=True):
@@ -132,14 +131,14 @@ class Returns(PublicCheck, frozen=True, kw_only=True):
         Joint solutions are compared without order and but for full turns.
     angles : tuple of int
         Entries of a returned vector that are angles.
-    tolerance : float
+    tolerance : float, optional
     """
 
     args: list[Any]
     shape: tuple[Index, ...] | None = None
     equals: Any = None
     angles: tuple[Index, ...] = ()
-    tolerance: Tolerance = TOLERANCE
+    tolerance: Tolerance | None = None
 
     def fit(self, form: Form) -> None:
         returned = _returned_form(form, "returns")
@@ -155,6 +154,7 @@ class Returns(PublicCheck, frozen=True, kw_only=True):
 
     def run(self, form: Form, node: object, function: Callable | None) -> Line:
         returned = _returned_form(form, "returns")
+        tolerance = _allowed(self.tolerance, returned)
         result = _result(self.args, function)
         if is_blank(returned.arranged(result)):
             return Line.unattempted(self.says)
@@ -162,15 +162,15 @@ class Returns(PublicCheck, frozen=True, kw_only=True):
             return Line(False, f"{self.says}: {complaint}")
         found, angles = reals(returned.arranged(result), {}), _angles(returned, self.angles)
         if isinstance(returned, JointSolutions):
-            found = _distinct(found.reshape(-1, len(returned.joints)), self.tolerance)
+            found = _distinct(found.reshape(-1, len(returned.joints)), tolerance)
         holds = self.shape is None or found.shape == self.shape or (0 in self.shape and found.size == 0)
         if holds and self.equals is not None:
             expected = np.array(self.equals, dtype=float).reshape(-1, *found.shape[1:])
             if isinstance(returned, JointSolutions):
-                same = _same(expected, found, self.tolerance)
+                same = _same(expected, found, tolerance)
                 holds = bool(same.any(axis=1).all() and same.any(axis=0).all())
             else:
-                holds = _agree(found, np.array(self.equals, dtype=float), angles, self.tolerance)
+                holds = _agree(found, np.array(self.equals, dtype=float), angles, tolerance)
         return Line(holds, self.says)
 
 
@@ -271,6 +271,13 @@ def _result(args: list, function: Callable | None) -> object:
     if function is None:
         raise ValueError("no function was handed in")
     return wire.encode(function(*copy.deepcopy(args)))
+
+
+def _allowed(given: float | None, form: Form) -> float:
+    """Unless it is given: two units of the last decimal that is asked for, as several rounded numbers meet."""
+    if given is not None:
+        return given
+    return TOLERANCE if form.decimals is None else 2 * 10.0**-form.decimals
 
 
 def _size(shape: Sequence[int]) -> int:
