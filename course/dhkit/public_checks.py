@@ -95,7 +95,9 @@ class ValueAt(PublicCheck, frozen=True, kw_only=True):
         if self.entry is not None:
             place = self.entry if len(self.entry) == found.ndim else np.unravel_index(self.entry[0], found.shape)
             found, angles = found[place], angles[place]
-        return Line(_agree(found, np.array(self.equals, dtype=float), angles, _allowed(self.tolerance, form)), self.says)
+        return Line(
+            _agree(found, np.array(self.equals, dtype=float), angles, _allowed(self.tolerance, form)), self.says
+        )
 
 
 class RigidTransform(PublicCheck, frozen=True, kw_only=True):
