@@ -4,7 +4,8 @@ Lengths in metres, angles in radians, arrays batch-first: q (..., n), poses (...
 face; everything in it is tested, whether or not a question asks for it.
 
 **Tables.** `DHTable` describes a serial robot, `robots` holds those of the documents; a table comes from classic rows
-or a URDF joint list too, and can be printed (`DHTable.to_markdown`, `DHTable.to_latex`).
+or a URDF joint list too, and can be printed (`DHTable.to_markdown`, `DHTable.to_latex`). Right angles with few digits
+(1.5708) are read as such, with a `RoundedInput` warning that says how far off they were.
 
 >>> import numpy as np
 >>> from autograder.reference import DHTable, robots
@@ -115,7 +116,7 @@ from .choice import misfits
 from .parallel import ThreeRPR, ThreeRRR
 from .singularities import jacobian, mobility, rank, rx90_determinant, scara_determinant, two_link_determinant
 from .solutions import Batch, Nearest, Solutions
-from .status import Failure, Flag, Status
+from .status import Failure, Flag, RoundedInput, Status
 from .tables import ClassicTable, DHRow, DHTable
 from .urdf import UrdfJoint, table_from_urdf
 
@@ -128,6 +129,7 @@ __all__ = [
     "Flag",
     "Nearest",
     "Robot",
+    "RoundedInput",
     "Solutions",
     "Status",
     "ThreeRPR",

@@ -9,6 +9,10 @@ import numpy as np
 from dhkit.geometry import TwoLink
 
 
+class RoundedInput(UserWarning):
+    """An angle or a pose with few digits was read as the exact one that it stands for; the message says how far off."""
+
+
 class Status(StrEnum):
     """How many real solutions a problem has; in batches an array of these texts."""
 

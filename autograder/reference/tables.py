@@ -43,7 +43,8 @@ class DHRow:
     a, d : number or SymPy expression
         Metres.
     alpha, theta : number or SymPy expression
-        Radians; floats within 1e-12 of a multiple of 15 degrees are taken as exact angles.
+        Radians; floats within 1e-12 of a multiple of 15 degrees are taken as exact angles, and those within 1e-4 of a
+        multiple of 90 degrees too, with a `RoundedInput` warning.
 
     Raises
     ------
@@ -64,7 +65,7 @@ class DHRow:
         for column in _COLUMNS[1:]:
             value = _expression(getattr(self, column), column)
             if column in ("alpha", "theta"):
-                value = exact_angle(value)
+                value = exact_angle(value, column)
             object.__setattr__(self, column, value)
 
     @property

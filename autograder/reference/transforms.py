@@ -9,14 +9,19 @@ Lengths in metres, angles in radians; entries may be numbers or sympy expression
 from __future__ import annotations
 
 import math
+import warnings
 from typing import TypeAlias
 
 import sympy as sp
+
+from .status import RoundedInput
 
 Entry: TypeAlias = float | sp.Expr
 """A number or a SymPy expression."""
 
 _ROUND_ANGLE = 12  # floats within 1e-12 of a multiple of pi/12 (15 degrees) are meant exactly
+ROUNDED = 1e-4
+"""Radians by which a right angle typed with few digits may be off: 1.5708, 3.1416."""
 
 
 def trans_x(a: Entry) -> sp.Matrix:
@@ -101,16 +106,29 @@ def rigid_inverse(transform: sp.Matrix) -> sp.Matrix:
     return turn.row_join(-turn * transform[:3, 3]).col_join(sp.Matrix([[0, 0, 0, 1]]))
 
 
-def exact_angle(angle: Entry) -> sp.Expr:
+def exact_angle(angle: Entry, name: str = "an angle") -> sp.Expr:
     """The angle with its constant part exact: a float near k*pi/12 becomes k*pi/12.
 
-    A float pi/2 hides every zero of cos and sin from sympy, which costs minutes later on.
+    A float pi/2 hides every zero of cos and sin from sympy, which costs minutes later on. A float that is only nearly a
+    multiple of pi/2 (1.5708) makes almost parallel axes of parallel ones: it is read as that, with a `RoundedInput`
+    warning that calls it by its name.
     """
     angle = sp.sympify(angle)
     constant, rest = angle.as_coeff_Add()
     if not constant.is_Float:
         return angle
     steps = round(float(constant) * _ROUND_ANGLE / math.pi)
-    if abs(float(constant) - steps * math.pi / _ROUND_ANGLE) > 1e-12:
+    if abs(float(constant) - steps * math.pi / _ROUND_ANGLE) <= 1e-12:
+        return rest + sp.Rational(steps, _ROUND_ANGLE) * sp.pi
+    quarters, off = nearest_quarter(float(constant))
+    if off > ROUNDED:
         return angle
-    return rest + sp.Rational(steps, _ROUND_ANGLE) * sp.pi
+    exact = sp.Rational(quarters, 2) * sp.pi
+    warnings.warn(f"{name} = {float(constant):.12g} is read as {exact}, {off:.2g} rad away", RoundedInput, stacklevel=2)
+    return rest + exact
+
+
+def nearest_quarter(angle: float) -> tuple[int, float]:
+    """The multiple of 90 degrees that is nearest to an angle (radians), and how far it is, radians."""
+    quarters = round(angle * 2 / math.pi)
+    return quarters, abs(angle - quarters * math.pi / 2)

@@ -7,8 +7,9 @@ the DHm frames are put on them, as steps 1 to 7 of the MECA 953 slides do by han
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,12 @@ import sympy as sp
 
 from dhkit.geometry import PARALLEL, TOUCHING, common_normal, link_axis, rotation
 
+from .status import RoundedInput
 from .tables import DHTable
+from .transforms import ROUNDED, nearest_quarter
+
+_NOISE = 1e-12  # radians: the rounding of float64, which is not worth a word
+_ALMOST = 1e-2  # radians between two axes whose common normal may be far away
 
 
 @dataclass(frozen=True)
@@ -60,11 +66,15 @@ def table_from_urdf(
     decide, so that a_i >= 0. Source: joint list of the MECA 953 slides, whose axes
     z, y, y, x, y, x are those of the public KR210 description.
 
+    Turns (rpy) and axes that are within 1e-4 rad of a multiple of 90 degrees, or of parallel or square to the axis
+    before, are read as that: URDF files hold 1.5708 and 3.14159. A `RoundedInput` warning says how far off they were.
+
     Raises ValueError when no joint moves, or an axis is the zero vector.
     """
-    points, axes, sigmas, end = _axes_at_zero(joints)
+    points, axes, sigmas, end = _axes_at_zero(_with_right_angles(joints))
     if not axes:
         raise ValueError("the chain has no moving joint")
+    axes = _straightened(axes)
     base = _base_frame(points[0], axes[0])
     z, x, origin = base[:3, 2], base[:3, 0], base[:3, 3]
     rows = []
@@ -77,9 +87,9 @@ def table_from_urdf(
         d = float(axis @ (foot - origin))
         theta = _angle(x, next_x, axis)
         joint = sp.Symbol(f"q{i + 1}")
-        entries: list[Any] = [_tidy(d), theta]
+        entries: list[Any] = [_length(d), theta]
         entries[1 - sigma] += joint
-        rows.append((sigma, _tidy(a), alpha, *entries))
+        rows.append((sigma, _length(a), alpha, *entries))
         x, z, a = next_x, axis, next_a
         origin = foot + next_a * next_x
         if i + 1 < len(axes):
@@ -89,6 +99,47 @@ def table_from_urdf(
     last[:3, 3] = origin
     tool = np.linalg.inv(last) @ end
     return DHTable(rows, name=name, base=_tidy(base), tool=_tidy(tool), limits=limits)
+
+
+def _with_right_angles(joints: Sequence[UrdfJoint]) -> list[UrdfJoint]:
+    """The joints with the right angles that their rpy stand for."""
+    offs = [0.0]
+
+    def exact(angle: float) -> float:
+        quarters, off = nearest_quarter(angle)
+        if off > ROUNDED:
+            return angle
+        offs.append(off)
+        return quarters * np.pi / 2 if off > _NOISE else angle
+
+    turns = [(joint, joint.rpy) for joint in joints]
+    read = [replace(joint, rpy=(exact(roll), exact(pitch), exact(yaw))) for joint, (roll, pitch, yaw) in turns]
+    if max(offs) > _NOISE:
+        _warn(f"rpy are read as a multiple of 90 degrees, at most {max(offs):.2g} rad away")
+    return read
+
+
+def _straightened(axes: Sequence[np.ndarray]) -> list[np.ndarray]:
+    """Unit vectors, each made parallel or square to the one before where it is nearly so."""
+    straight = [axes[0]]
+    for i, axis in enumerate(axes[1:], start=1):
+        before = straight[-1]
+        along, across = before @ axis, np.linalg.norm(np.cross(before, axis))
+        between = f"axes {i} and {i + 1} are"
+        if _NOISE < across <= ROUNDED:
+            axis = np.sign(along) * before
+            _warn(f"{between} read as parallel, {across:.2g} rad away")
+        elif ROUNDED < across < _ALMOST:
+            _warn(f"{between} almost parallel, {across:.2g} rad apart: their common normal may be far away")
+        elif _NOISE < abs(along) <= ROUNDED:
+            axis = (axis - along * before) / across
+            _warn(f"{between} read as square, {abs(along):.2g} rad away")
+        straight.append(axis)
+    return straight
+
+
+def _warn(message: str) -> None:
+    warnings.warn(message, RoundedInput, stacklevel=4)
 
 
 def _axes_at_zero(
@@ -147,6 +198,11 @@ def _next_link(
 def _angle(start: np.ndarray, end: np.ndarray, about: np.ndarray) -> float:
     """Angle from one vector to another about an axis perpendicular to both, radians."""
     return float(np.arctan2(np.cross(start, end) @ about, start @ end))
+
+
+def _length(value: float) -> float:
+    """A length without rounding noise; axes that count as touching have none between them."""
+    return 0.0 if abs(value) < TOUCHING else _tidy(value)
 
 
 def _tidy(values: Any) -> Any:
