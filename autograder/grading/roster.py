@@ -22,6 +22,7 @@ from .folders import why_unusable
 from .inert import from_spreadsheet, spreadsheet_cell
 
 FILE = "students.csv"
+_LONGEST_CELL = 16 << 20
 _LISTS = ("groups", "extensions", "exempt")
 
 
@@ -185,6 +186,7 @@ def read_table(path: Path) -> Sequence[list[str]]:
     if content.startswith(b"PK\x03\x04"):
         raise CourseError(f"{path} is a workbook or a zip; save it as CSV")
     text = decoded(content)
+    csv.field_size_limit(_LONGEST_CELL)  # a worksheet may hold whole texts that students typed
     try:
         return list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter(text)))
     except csv.Error as error:

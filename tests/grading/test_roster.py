@@ -61,6 +61,11 @@ def test_a_worksheet_in_another_language(tmp_path):
     assert found.person(found.rows[1]).email == "zoe@x.org"
 
 
+def test_a_worksheet_with_long_texts(tmp_path):
+    text = f'Identifier,Full name,Online text,Grade\nParticipant 1,Ada Lovelace,"{"x" * 200_000}",\n'
+    assert read_moodle(saved(tmp_path, "worksheet.csv", text)).rows[0][1] == "Ada Lovelace"
+
+
 def test_a_grade_table_of_canvas_without_its_other_rows(tmp_path):
     people = read_canvas(saved(tmp_path, "grades.csv", GRADES, "utf-8-sig"))
     assert people == [

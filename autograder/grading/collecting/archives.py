@@ -156,13 +156,23 @@ def _folder(folder: Path) -> Iterator[Packed]:
         for name in sorted(names):
             path = Path(place, name)
             found = path.lstat()
-            inside = tuple(normalize("NFC", part) for part in path.relative_to(folder).parts)
+            inside = tuple(normalize("NFC", _shown(part)) for part in path.relative_to(folder).parts)
             lies = _Place((folder.name,)).inside(inside, _written(found))
             if is_left_out((name,)) or not stat.S_ISREG(found.st_mode):
                 yield lies.packed()
                 continue
-            with path.open("rb") as file:
+            try:
+                file = path.open("rb")
+            except OSError as error:
+                yield lies.packed(trouble=f"it cannot be read here ({error.strerror})")
+                continue
+            with file:
                 yield from _file(file, lies, _budget(found.st_size), 0)
+
+
+def _shown(name: str) -> str:
+    """A name of the file system, without what is no UTF-8."""
+    return os.fsencode(name).decode("utf-8", "replace")
 
 
 def _written(found: os.stat_result) -> datetime:

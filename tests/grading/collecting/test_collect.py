@@ -1,11 +1,13 @@
 """Collecting once more, names that do not tell, and archives that mean harm."""
 
 import io
+import os
 import re
 import struct
 import unicodedata
 import zipfile
 from datetime import timedelta
+from pathlib import Path
 
 import pytest
 
@@ -268,6 +270,28 @@ def test_plain_zips_and_folders(downloads, collect, root):
     rows = statuses(collect(downloads.zipped(files), folder, alone))
     assert rows == {f"s{number}": "collected" for number in range(5)}
     assert [handed_in(root, f"s{number}") for number in range(5)] == list(notebook.values())
+
+
+def test_a_folder_with_odd_names_and_files_that_cannot_be_read(downloads, collect, root, monkeypatch):
+    folder = root.parent / "unpacked"
+    for number, name in enumerate([b"Ann A_1_assignsubmission_file", b"Jos\xe9 B_2_assignsubmission_file"]):
+        place = os.path.join(os.fsencode(folder), name)
+        os.makedirs(place)
+        with open(os.path.join(place, b"scara.ipynb"), "wb") as file:
+            file.write(right(downloads, str(number)))
+    os.mkfifo(folder / "pipe")
+    rows = collect(folder)
+    assert statuses(rows) == {"Ann A": "collected", "Jos\ufffd B": "collected", "?": "nobody's"}
+    whole = Path.open
+
+    def opened(path, *more, **options):
+        if path.name == "scara.ipynb" and "Ann" in str(path) and "unpacked" in str(path):
+            raise PermissionError(13, "Permission denied", str(path))
+        return whole(path, *more, **options)
+
+    monkeypatch.setattr(Path, "open", opened)
+    rows = {row.student: row for row in collect(folder)}
+    assert "cannot be read here (Permission denied)" in " ".join(rows["Ann A"].remarks)
 
 
 def test_a_download_packed_once_more(downloads, collect, root):
