@@ -257,7 +257,8 @@ def _is_of_time(value: sympy.Basic) -> bool:
 def _solved(equation: sympy.Equality) -> sympy.Basic:
     """What an equation says of its symbol, or of zero; else its right-hand side."""
     left, right = equation.lhs, equation.rhs
-    return left if right == 0 or (isinstance(right, sympy.Symbol) and not isinstance(left, sympy.Symbol)) else right
+    said_backwards = right == 0 or isinstance(right, sympy.Symbol)
+    return left if said_backwards and not isinstance(left, sympy.Symbol) else right
 
 
 def _unknown(value: object) -> dict:

@@ -6,7 +6,7 @@ import msgspec
 import numpy as np
 import pytest
 import sympy
-from answers import evidence, other_forms, perturbed
+from answers import entries, evidence, other_forms, perturbed
 
 from autograder.judge import Family, judge
 from autograder.judge.tree import IMPOSSIBLE
@@ -134,6 +134,17 @@ def test_rounded_answers_are_as_right_as_for_the_judge(home, question, digits):
     whose = student(question)
     numbers = np.array(sympy.Matrix(plain(question.answer(whose))).evalf().tolist(), float)
     agree(question, np.round(numbers, digits).tolist(), whose)
+
+
+@pytest.mark.parametrize("question", [q for q in QUESTIONS if q.form.symbols], ids=lambda q: q.id)
+def test_constant_angles_typed_as_decimals_are_right_at_home(home, question):
+    whose = student(question)
+    answer = entries(plain(question.answer(whose)))
+    if not is_sealed(question) or not any(entry.has(sympy.pi) for entry in answer.flat):
+        return
+    typed = lambda e: e.replace(lambda x: x.is_number and x.has(sympy.pi), lambda x: sympy.Float(round(float(x), 4)))  # noqa: E731
+    found = agree(question, np.vectorize(typed, otypes=[object])(answer).tolist(), whose)
+    assert found.state == "right"
 
 
 # ---------------------------------------------------------------- secrecy

@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 
 from .. import public, variants, wire
+from ..angles import meant
 from ..forms import Form
 from ..forms.base import Parts
 from ..forms.function import Function
@@ -87,7 +88,9 @@ def judge_at_home(
     whose = student if student is not None else variants.typed(question.exercise) or variants.NOBODY
     number_set = variants.number_set(question.exercise, whose)
     if function is None:
-        return _of_data(question, sealed, here, arranged, number_set)
+        found = _of_data(question, sealed, here, arranged, number_set)
+        exact = meant(arranged) if question.form.symbols and found.state in ("not_right", "partly") else arranged
+        return found if exact == arranged else _of_data(question, sealed, here, exact, number_set)
     return _of_function(question, sealed, here, function, number_set)
 
 
