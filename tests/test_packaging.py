@@ -42,6 +42,7 @@ def imported(folder):
                 yield node.module.split(".")[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("file", PROJECTS)
 def test_what_a_package_imports_is_declared(file):
     modules = {name for folder in PROJECTS[file] for name in imported(folder)} - OURS - sys.stdlib_module_names

@@ -12,6 +12,8 @@ import nbformat
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.slow
+
 LECTURES = Path(__file__).parents[2] / "course"
 
 

@@ -8,6 +8,8 @@ import pytest
 
 from autograder import cli
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def term(without_kernels, small, course_copy, released):

@@ -89,6 +89,7 @@ def test_limits_that_make_no_sense_are_refused(empty_course, words, capsys):
     assert end.value.code == 2 and words[0] in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_release_is_deterministic_and_gives_nothing_away(course_copy, small, capsys):
     notebook = course_copy / "exercises/scara/scara.ipynb"
     first = notebook.read_bytes()
@@ -152,6 +153,7 @@ def test_released_notebook_and_gradebook_must_agree(course_copy, small, released
     assert "is not what the gradebook knows" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_without_a_sandbox_grading_is_refused(course_copy, small, released, capsys, monkeypatch):
     small.hand_in(course_copy, "ann", small.answered(released))
     monkeypatch.setattr("autograder.grading.plugins.autograde.available", lambda: "bubblewrap is missing")
@@ -243,6 +245,7 @@ def with_kit(course_copy, small):
     return course_copy
 
 
+@pytest.mark.slow
 def test_the_bundle_holds_the_students_half_only(with_kit, small, tmp_path):
     target = tmp_path / "robots.zip"
     assert run(with_kit, "bundle", "--to", str(target)) == 0

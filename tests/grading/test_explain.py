@@ -17,6 +17,8 @@ from autograder.grading.submission.execution import Execution
 from autograder.judge import Evidence
 from dhkit import wire
 
+pytestmark = pytest.mark.slow
+
 SCRIPT = "<script>alert('student')</script>"
 
 

@@ -8,6 +8,8 @@ import pytest
 
 from autograder import cli
 
+pytestmark = pytest.mark.slow
+
 
 def run(root, *words):
     return cli.main([*words, "--course", str(root)])

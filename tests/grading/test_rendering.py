@@ -12,6 +12,8 @@ from traitlets.config import Config
 from autograder.grading import rendering
 from autograder.grading.rendering import Budget, Renderer
 
+pytestmark = pytest.mark.slow
+
 NAMES = ("markdown2html", "highlight_code", "ansi2html", "clean_html", "strip_files_prefix")
 FILTERS = {name: f"autograder.grading.rendering.{name}" for name in NAMES}
 HALF_A_MILLION = 500_000

@@ -18,6 +18,8 @@ from autograder.grading.roster import Person, Roster
 from autograder.grading.store import stored_notebooks
 from autograder.grading.term import Deadlines, Late, Term, deadlines, read_term
 
+pytestmark = pytest.mark.slow
+
 TERM = """
 timezone = "Europe/Zurich"
 

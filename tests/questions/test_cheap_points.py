@@ -11,6 +11,8 @@ from autograder.judge import is_forgivable, judge
 from autograder.questions import exercises, find
 from autograder.reference.transforms import modified_dh
 
+pytestmark = pytest.mark.slow
+
 QUESTIONS = [question for questions in exercises().values() for question in questions]
 FUNCTIONS = [question for question in QUESTIONS if question.form.kind == "function"]
 FOLLOWING = [question for question in QUESTIONS if question.follows is not None]

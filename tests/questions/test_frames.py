@@ -24,6 +24,7 @@ def turned_over(rows, i, axis):
     return rows
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("axis", ["Z", "X"])
 @pytest.mark.parametrize("question", TABLES, ids=lambda question: question.id)
 def test_an_axis_turned_over_is_right_where_the_statement_leaves_it_free(question, axis):

@@ -13,6 +13,8 @@ from answers import STUDENT, right, verdict
 from autograder.judge.tree import UNEXPLAINED
 from autograder.questions import exercises
 
+pytestmark = pytest.mark.slow
+
 QUESTIONS = [q for qs in exercises().values() for q in qs if q.form.kind not in ("choice", "point_cloud", "direction")]
 SIGMA, A, ALPHA, D, THETA = range(5)
 PLACES = (

@@ -12,6 +12,8 @@ from autograder.judge import Family
 from autograder.judge.almost import ROUNDED as NOTE
 from autograder.questions import exercises
 
+pytestmark = pytest.mark.slow
+
 SOLUTIONS = Path(__file__).parents[2] / "solutions"
 WORDS = {3: "three", 4: "four"}
 

@@ -136,6 +136,7 @@ def test_round_angles_are_recovered(name):
     assert (roots.free[~finite] != "").all() and (roots.free[finite] == "").all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_complete_against_multistart(name):
     solve, residual, unknowns, size = CASES[name]

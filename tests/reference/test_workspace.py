@@ -8,7 +8,7 @@ from autograder.reference.equations import type8
 from autograder.reference.tables import DHTable
 from autograder.reference.workspace import RRArm
 
-pytestmark = pytest.mark.filterwarnings("error")
+pytestmark = [pytest.mark.filterwarnings("error"), pytest.mark.slow]
 FULL = (-np.pi, np.pi)
 PLANAR = DHTable([(0, 0, 0, 0, None), (0, 1.0, 0, 0, None), (0, 0.6, 0, 0, 0)], name="2R")
 

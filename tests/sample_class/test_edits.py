@@ -11,6 +11,8 @@ from expected import Submission, submissions
 from nbgrader.preprocessors import ClearSolutions
 from write import NotOurs, hand_in, solution, write_class
 
+pytestmark = pytest.mark.slow
+
 EXERCISES = sorted({one.exercise for one in submissions()})
 
 

@@ -15,6 +15,8 @@ from dhkit.home import progress as progress_of
 from dhkit.home.envelopes import SUFFIX, encoded
 from dhkit.variants import variant
 
+pytestmark = pytest.mark.slow
+
 t1, t2, t4, a2, a3, d2 = symbols("t1 t2 t4 a2 a3 d2")
 MODEL = [a2 * cos(t1) + a3 * cos(t1 + t2), a2 * sin(t1) + a3 * sin(t1 + t2), -d2, t1 + t2 + t4]
 POINTS = {"scara.model": 2.0, "scara.T04": 3.0, "scara.d2_sign": 1.0, "scara.postures": 3.0}

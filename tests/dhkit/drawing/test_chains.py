@@ -67,6 +67,7 @@ def boxes(ax) -> dict[str, Bbox]:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ROBOTS)
 def test_every_frame_is_named_and_every_label_lies_inside_the_figure(name):
     rows, values, tool = ROBOTS[name]
@@ -78,6 +79,7 @@ def test_every_frame_is_named_and_every_label_lies_inside_the_figure(name):
         assert ax.figure.bbox.contains(box.x0, box.y0) and ax.figure.bbox.contains(box.x1, box.y1), text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ROBOTS)
 def test_scale_is_equal_on_the_three_axes(name):
     rows, values, tool = ROBOTS[name]

@@ -53,6 +53,7 @@ def test_plane_drawing_uses_the_given_axes_and_equal_scale(name):
     ax.figure.canvas.draw()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [*DRAWINGS, *DRAWINGS_3D])
 def test_drawing_makes_one_figure_of_its_own(name):
     ax = (DRAWINGS | DRAWINGS_3D)[name](None)
@@ -68,6 +69,7 @@ def test_space_drawing_has_equal_scale_on_its_three_axes(name):
     assert ratio == pytest.approx(np.full(3, ratio[0]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", DRAWINGS_3D)
 def test_every_label_of_a_space_drawing_lies_inside_its_figure(name):
     ax = DRAWINGS_3D[name](None)

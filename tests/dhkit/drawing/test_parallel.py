@@ -137,6 +137,7 @@ def shown(name, answer):
     return show(answer, BASE, PLATFORM, *rest)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SHOWN)
 def test_answers_are_drawn_and_blanks_say_so(name):
     answer = SHOWN[name][1]

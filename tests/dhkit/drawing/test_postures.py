@@ -43,6 +43,7 @@ IN_PLANE = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", IN_PLANE)
 def test_plane_drawing_uses_the_given_axes_and_equal_scale(name):
     ax = plt.subplots()[1]

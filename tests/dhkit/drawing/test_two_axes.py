@@ -62,6 +62,7 @@ def test_each_space_names_the_one_parameter_that_it_shows():
         assert set(texts(panel)) & set(names) == {name}
 
 
+@pytest.mark.slow
 def test_figures_of_several_spaces():
     assert len(draw_axis_cases()) == 3
     panels = draw_parameter_steps(a=0.5, alpha=-0.3, d=-0.4, theta=2.0)

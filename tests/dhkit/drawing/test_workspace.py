@@ -37,6 +37,7 @@ DRAWINGS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", DRAWINGS)
 def test_every_drawing_can_be_shown(name):
     DRAWINGS[name]().figure.canvas.draw()

@@ -61,6 +61,7 @@ PICTURES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PICTURES)
 def test_right_answers_coincide_and_wrong_ones_do_not(name):
     show, right, wrong = PICTURES[name]

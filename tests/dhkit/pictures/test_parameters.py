@@ -51,6 +51,7 @@ def test_scenes_can_be_drawn(draw):
     assert ax.texts
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SHOWN)
 def test_an_answer_is_drawn(name):
     show, answer, given = SHOWN[name]

@@ -72,6 +72,7 @@ def untouched(*args):
     """What is left of a function when its solution is taken out."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SHOWN)
 def test_an_answer_is_drawn(name):
     show, answer, rest = SHOWN[name]

@@ -5,6 +5,8 @@ import os
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 
 def handed_in(root, student, exercise="scara"):
     path = root / "submitted" / student / exercise / f"{exercise}.ipynb"

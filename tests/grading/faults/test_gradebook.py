@@ -17,6 +17,8 @@ from autograder import cli
 from autograder.grading import gradebook
 from autograder.grading.course import open_course
 
+pytestmark = pytest.mark.slow
+
 
 def rows(root, query):
     with sqlite3.connect(root / "gradebook.db") as connection:

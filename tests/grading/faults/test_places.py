@@ -11,6 +11,8 @@ import pytest
 from autograder import cli
 from autograder.grading import files
 
+pytestmark = pytest.mark.slow
+
 NAMES = {
     ".dots": "starts with a dot",
     "..dots": "starts with a dot",

@@ -13,6 +13,8 @@ from autograder import cli, questions
 from autograder.grading import files
 from autograder.judge import Question
 
+pytestmark = pytest.mark.slow
+
 
 def solution(root):
     return root / "solutions/scara/scara.ipynb"

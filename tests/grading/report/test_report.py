@@ -22,6 +22,8 @@ from autograder.judge import Evidence
 from autograder.judge.written import written
 from dhkit import wire
 
+pytestmark = pytest.mark.slow
+
 t1, t2, t4, a2, a3, d2 = sympy.symbols("t1 t2 t4 a2 a3 d2")
 NAMES = ("T04", "d2_sign", "forward")
 BLANK = {"blank": True}
