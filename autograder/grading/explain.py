@@ -255,7 +255,7 @@ def _tree(told: Account, whole: bool) -> str:
     elif note == "malformed":
         why = "the answer does not have the form that is asked for"
     elif note in UNEXPLAINED:
-        why = f"the answer is not right, and no mistake with a name gives it, of {len(told.tree) - 1}: {note} {worth}"
+        why = f"the answer is not right, and none of the {len(told.tree) - 1} mistakes with a name gives it: {note} {worth}"
     else:
         why = f"there was nothing to compare: {note}"
     if not whole:

@@ -24,7 +24,7 @@ from .collecting.receipts import Receipt, read_receipts, receipts_folder
 from .course import Course, convert
 from .errors import CourseError
 from .files import staged
-from .gradebook import reading
+from .gradebook import GradebookError, reading
 from .plugins.feedback import FeedbackPages
 from .roster import Person, Roster, read_roster, read_table
 from .store import StoredNotebook, stored_notebooks
@@ -195,16 +195,25 @@ def _class(course: Course, exercise: str) -> _Class:
             graded.setdefault(student, []).append(one)
     if not graded:
         raise CourseError(f"nothing was graded for {exercise} yet; run: autograder grade {exercise}")
-    convert(
-        FeedbackPages(coursedir=course.app.coursedir, parent=course.app, students=tuple(sorted(graded)), force=False)
+    converter = FeedbackPages(
+        coursedir=course.app.coursedir, parent=course.app, students=tuple(sorted(graded)), force=False
     )
-    pages = {student: course.step("feedback", student, exercise) / f"{exercise}.html" for student in graded}
+    try:
+        convert(converter)
+    except GradebookError:
+        raise
+    except CourseError:
+        if not converter.failures:
+            raise
+    fit = graded.keys() - converter.failures.keys()
+    pages = {student: course.step("feedback", student, exercise) / f"{exercise}.html" for student in fit}
     return _Class(
         exercise,
         {student: Grade.of(found) for student, found in graded.items()},
         {student: page for student, page in pages.items() if page.is_file()},
         read_receipts(receipts_folder(course.root, exercise)),
         read_roster(course.root),
+        {student: [f"no feedback file: {reason}"] for student, reason in converter.failures.items()},
     )
 
 

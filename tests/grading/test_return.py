@@ -158,6 +158,21 @@ def test_of_two_with_one_name_nobody_gets_the_others_points(graded, tmp_path):
     assert "graded, but not found on the platform" in lines["zoe"].remarks
 
 
+def test_one_page_that_cannot_be_written_does_not_keep_the_others_back(graded, without_kernels, tmp_path):
+    root = tmp_path / "course"
+    shutil.copytree(graded["moodle"], root)
+    (root / "autograded/zoe/scara/scara.ipynb").write_text("{}")
+    for student in ("Ben Moses", "zoe"):
+        shutil.rmtree(root / "feedback" / student)
+    with without_kernels():
+        lines = {line.student: line for line in return_moodle(open_course(root), "scara", None, tmp_path, False)}
+    pages = moodle_reads_feedback(
+        (tmp_path / "scara-feedback.zip").read_bytes(), {"4711": "ada", "4712": "zoe", "4713": "ben"}
+    )
+    assert pages.keys() == {"ada", "ben"}
+    assert "no feedback file" in lines["zoe"].remarks[0] and "autograder grade scara" in lines["zoe"].remarks[0]
+
+
 def test_a_groups_points_go_to_its_members(graded, tmp_path):
     root = tmp_path / "course"
     shutil.copytree(graded["moodle"], root)
