@@ -151,7 +151,7 @@ def _settle(
         if before is not None and before.digest:
             return Row(student, "kept", before.file, (f"{status} this time", *said)), before
         return Row(student, status, ordered[-1].shown, said), msgspec.structs.replace(
-            receipt, missing=f"{status}: {'; '.join(said)}"
+            receipt, digest="", answered=0, missing=f"{status}: {'; '.join(said)}"
         )
     others = {piece.digest for piece in right if piece.digest != chosen.digest}
     remarks = (*(chosen.found.remarks if chosen.found else ()), *troubles, *late)

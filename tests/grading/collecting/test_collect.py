@@ -394,6 +394,25 @@ def test_who_handed_in_something_else_has_a_line_in_the_class_table(downloads, c
     assert (line.student, line.score, line.found()) == ("Ben B", None, "no notebook: handed in: report.pdf")
 
 
+def test_what_is_no_notebook_of_it_is_told_again_and_again(downloads, collect, root):
+    people = [
+        student(downloads, "Ann A", downloads.as_bytes(downloads.answered("planar_2r"))),
+        student(downloads, "Ben B", b"%PDF", "report.pdf"),
+        student(downloads, "Cid C", b"{", "scara.ipynb"),
+    ]
+    first = collect(downloads.moodle(people))
+    again = collect(downloads.moodle(people))
+    assert statuses(first) == {"Ann A": "wrong exercise", "Ben B": "no notebook", "Cid C": "unreadable"}
+    assert statuses(again) == statuses(first)
+    assert "unreadable" in again[2].remarks[0]
+    right_now = [student(downloads, one.name, right(downloads, one.name), hours={"scara.ipynb": 99}) for one in people]
+    assert statuses(collect(downloads.moodle(right_now))) == {
+        "Ann A": "collected",
+        "Ben B": "collected",
+        "Cid C": "replaced",
+    }
+
+
 def test_what_cannot_be_collected_is_said(downloads, collect, root):
     with pytest.raises(CourseError, match=r"there is no .*/missing\.zip"):
         collect(root / "missing.zip")
