@@ -150,7 +150,8 @@ def _judge_data(question: Question, decoded: Decoded, student: str, earlier: Map
         almost := find_almost(form, answer, setting, beside_reference, decoded.assumed)
     ):
         return verdict_on(form, almost, tuple(map(plain, decoded.assumed)))
-    if not against_reference.remarks and question.places and (place := locate(question, answer, student, setting)):
+    silent = not against_reference.equal and not against_reference.remarks
+    if silent and question.places and (place := locate(question, answer, student, setting)):
         against_reference = replace(against_reference, remarks=(place,))
     return walk(
         question,

@@ -30,7 +30,9 @@ def right_forms():
 @pytest.mark.parametrize(("question", "form"), list(right_forms()))
 def test_right_forms_earn_everything(question, form):
     answer = {"as it is": right(question), **other_forms(question, right(question))}[form]
-    assert (verdict(question, answer).note, verdict(question, answer).share) == ("right", 1.0)
+    found = verdict(question, answer)
+    assert (found.note, found.share) == ("right", 1.0)
+    assert not any(word in found.feedback for word in ("wrong", "differ", "missing")), found.feedback
 
 
 @pytest.mark.parametrize("question", FUNCTIONS, ids=ids(FUNCTIONS))
