@@ -19,6 +19,7 @@ from .home.verdict import Verdict, judge_at_home
 from .nodes import blanks
 from .notice import Line, Notice, show
 from .public_checks import run_public_check
+from .values import reals
 
 _ASSUMED = "declared as positive: {}; SymPy simplifies with that, and turns atan2(y, x) into atan(y/x)"
 
@@ -129,9 +130,19 @@ def _notice(question: public.PublicQuestion, node: object, function: Callable | 
         missed = sum(line.holds is False for line in lines)
         status = "handed in" if not missed else f"handed in, but {missed} of {len(lines)} checks fail"
         return Notice(question.title, status, (*lines, Line(None, found.text)))
+    if _is_rounded(question.form, arranged):
+        lines.append(Line(None, f"there are numbers with fewer than {question.form.decimals} decimals"))
     if found.text:
         lines.append(Line(False if found.state == "mistake" else None, found.text))
     return Notice(question.title, "not right yet", tuple(lines))
+
+
+def _is_rounded(form: Form, node: object) -> bool:
+    """Whether some numbers have fewer decimals than are asked for, and are not whole."""
+    if form.decimals is None:
+        return False
+    found = reals(node, {})
+    return bool(((found == found.round(form.decimals - 1)) & (found != found.round())).any())
 
 
 def _precision(form: Form) -> str:
