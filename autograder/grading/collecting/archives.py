@@ -6,11 +6,11 @@ in number, size, ratio and nesting; what cannot be read comes out with the reaso
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 import stat
 import struct
-import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -112,17 +112,6 @@ class _Refused(ValueError):
     """An archive or a file in it is not read; the message says why."""
 
 
-# What zipfile raises at archives that are damaged, encrypted or packed in another way.
-_ERRORS = (
-    BadZipFile,
-    NotImplementedError,
-    RuntimeError,
-    OSError,
-    ValueError,
-    EOFError,
-    struct.error,
-    zlib.error,
-)
 _PASSWORD = "it is encrypted with a password"
 
 
@@ -194,7 +183,7 @@ def _zip(file: IO[bytes], size: int, place: _Place, budget: _Budget | None, dept
         entries = archive.infolist()
         if len(entries) > MAX_DOWNLOAD:
             raise _Refused("it holds too many files")
-    except _ERRORS as error:
+    except Exception as error:  # zipfile raises anything at what is damaged
         yield place.packed(trouble=_in_words(error))
         return
     looked_at = False
@@ -203,7 +192,7 @@ def _zip(file: IO[bytes], size: int, place: _Place, budget: _Budget | None, dept
             yield place.inside((*folder, EMPTY), time).packed()
     for entry in entries:
         inside = _parts(entry)
-        if not inside or entry.is_dir():
+        if not inside or _is_folder(entry):
             continue
         within = place.inside(inside, _time(entry))
         if is_left_out(inside) or stat.S_ISLNK(entry.external_attr >> 16):
@@ -222,7 +211,7 @@ def _zip(file: IO[bytes], size: int, place: _Place, budget: _Budget | None, dept
             if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
                 raise NotImplementedError  # others may ask for gigabytes of memory
             opened = archive.open(entry)
-        except _ERRORS as error:
+        except Exception as error:  # zipfile raises anything at what is damaged
             yield within.packed(trouble=_in_words(error))
             continue
         with opened:
@@ -246,7 +235,7 @@ def _file(file: IO[bytes], place: _Place, budget: _Budget, depth: int) -> Iterat
             yield place.packed(_content(head, file, budget))
         else:
             yield place.packed()
-    except _ERRORS as error:
+    except Exception as error:  # zipfile raises anything at what is damaged
         yield place.packed(trouble=_in_words(error))
 
 
@@ -311,11 +300,19 @@ def _parts(entry: ZipInfo) -> tuple[str, ...]:
 
 def _empty_folders(entries: Sequence[ZipInfo]) -> Iterator[tuple[tuple[str, ...], datetime]]:
     full = {
-        parts[:end] for entry in entries if not entry.is_dir() for parts in [_parts(entry)] for end in range(len(parts))
+        parts[:end]
+        for entry in entries
+        if not _is_folder(entry)
+        for parts in [_parts(entry)]
+        for end in range(len(parts))
     }
     for entry in entries:
-        if entry.is_dir() and (parts := _parts(entry)) and parts not in full:
+        if _is_folder(entry) and (parts := _parts(entry)) and parts not in full:
             yield parts, _time(entry)
+
+
+def _is_folder(entry: ZipInfo) -> bool:
+    return entry.filename.endswith(("/", "\\"))
 
 
 def is_left_out(parts: tuple[str, ...]) -> bool:
@@ -331,6 +328,8 @@ def _time(entry: ZipInfo) -> datetime:
 
 
 def _in_words(error: Exception) -> str:
+    if isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT):
+        raise error  # not the archive's fault
     if isinstance(error, _Refused):
         return str(error)
     if "password" in str(error):

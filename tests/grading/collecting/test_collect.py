@@ -2,6 +2,7 @@
 
 import io
 import os
+import random
 import re
 import struct
 import unicodedata
@@ -343,6 +344,30 @@ def lying_directory(content):
     """A zip that says its list of names is 200 MB long."""
     place = content.rindex(b"PK\x05\x06") + 12
     return content[:place] + struct.pack("<L", 200 << 20) + content[place + 4 :]
+
+
+def damaged(rng, content):
+    """The content with some bytes changed, left out or put in, most of them where a zip keeps its names."""
+    content = bytearray(content)
+    for _ in range(rng.choice([1, 1, 2, 5, 20])):
+        place = rng.randrange(0 if rng.random() < 0.4 else max(0, len(content) - 400), len(content))
+        few = rng.randrange(1, 9)
+        content[place : place + rng.choice([few, 0, 1])] = rng.randbytes(rng.choice([few, 0, 1]))
+    return bytes(content)
+
+
+def test_a_damaged_archive_is_told_whatever_is_damaged(downloads, tmp_path):
+    rng = random.Random(4)
+    inner = downloads.zipped({"scara/scara.ipynb": b'{"cells": []}' * 50, "é/": b"", "b.txt": b"x"})
+    outer = downloads.zipped({"Ada_1_assignsubmission_file_/x.zip": inner, "Ben_2_assignsubmission_file_/": b""})
+    path = tmp_path / "all.zip"
+    for _ in range(600):
+        path.write_bytes(
+            rng.choice(
+                [damaged(rng, outer), downloads.zipped({"Eve_3_assignsubmission_file_/y.zip": damaged(rng, inner)})]
+            )
+        )
+        assert list(archives.unpack(path)), "somebody vanished"
 
 
 @pytest.mark.parametrize(
