@@ -17,7 +17,8 @@ MAX_NESTING = 100  # tags within tags; what reads the page later on needs time w
 PICTURES = ("image/png", "image/jpeg", "image/gif", "image/webp")
 """Pictures that can be pasted into a cell; SVG is not among them, as it is a program of its own."""
 
-_FORMULA = ("=", "+", "-", "@", "\t", "\r")
+# The full-width ones begin a formula in East Asian spreadsheets.
+_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\uff1d", "\uff0b", "\uff0d", "\uff20")
 _SHOWN = ("text/plain", "text/latex", "image/svg+xml", "image/png", "image/jpeg")
 BASE64 = re.compile(r"[A-Za-z0-9+/=\s]*\Z")
 _CONTROL = re.compile(

@@ -19,7 +19,7 @@ from .tree import Verdict, nearest, walk
 from .written import plain, written
 
 # Characters of an argument list that is told with all its digits, and at all, and of what came back.
-MOST_DIGITS, MOST_ARGUMENTS, MOST_RETURNED = 160, 400, 200
+MOST_DIGITS, MOST_ARGUMENTS, MOST_RETURNED = 40, 400, 200
 
 
 def judge_results(question: Question, arguments: list[list], results: Sequence[Decoded], student: str) -> Verdict:

@@ -25,6 +25,7 @@ from .slips import explain_answer, locate
 from .tree import Verdict, nearest, walk
 from .written import plain
 
+UNTOLD = "not all of it is right; which part is not, is just what the question asks"
 FORGIVEN = "**Right for your own earlier answer.** What went wrong there has been counted there; from it you went on correctly."
 
 
@@ -143,7 +144,7 @@ def _judge_data(question: Question, decoded: Decoded, student: str, earlier: Map
     against_reference = compare((), setting.turn)
     against_reference = replace(against_reference, share=beyond_guessing(question, student, against_reference))
     if not question.places and not against_reference.equal:
-        against_reference = replace(against_reference, remarks=())
+        against_reference = replace(against_reference, remarks=(UNTOLD,))
     if not against_reference.equal and _follows(question, answer, setting, student, earlier):
         return Verdict(1.0, "right_from_earlier", FORGIVEN)
     if not against_reference.equal and (

@@ -215,17 +215,18 @@ def sealables(question: Question, which: int, solution: str = "") -> list[Sealab
     assert right is not None, question.id
     left_out = ", ".join(_calls(question, which).left_out)
     said = Said(state="right", note="right", share=1.0, solution=solution, left_out=left_out)
-    found = [Sealable(said, "", right.parts[""], right.witness)]
-    seen = [right.witness]
+    essential = question.form.essential
+    found = [Sealable(said, "", right.parts[""], essential(right.witness))]
+    seen = [essential(right.witness)]
     for node in question.mistakes:
         said = Said(state="mistake", note=node.note, share=node.share, text=node.feedback)
         for way in node.ways:
             look = _seen(question, which, way)
             if look is None or look.bits[""] < ENOUGH:
                 continue
-            if any(question.form.agree(look.witness, other, sight) for other in seen):
+            if any(question.form.agree(essential(look.witness), other, sight) for other in seen):
                 continue  # what comes first in the tree decides
-            seen.append(look.witness)
+            seen.append(essential(look.witness))
             found.append(Sealable(said, "", look.parts[""], look.witness))
     for part, numbers in right.parts.items():
         if part and right.bits.get(part, 0.0) >= ENOUGH:

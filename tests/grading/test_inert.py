@@ -164,7 +164,9 @@ def test_a_note_survives_the_gradebook():
     assert note_of("No response.") is None and note_of(None) is None and note_of("note: <b>") is None
 
 
-@pytest.mark.parametrize("text", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1"])
+@pytest.mark.parametrize(
+    "text", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\uff1d1+1", "\uff0b1", "\uff0d1", "\uff20SUM(A1)"]
+)
 def test_a_spreadsheet_sees_no_formula(text):
     assert spreadsheet_cell(text) == f"'{text}"
     assert spreadsheet_cell(-1.5) == -1.5 and spreadsheet_cell(None) == "" and spreadsheet_cell("ann") == "ann"

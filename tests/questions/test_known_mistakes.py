@@ -115,7 +115,8 @@ def expressions(answer):
     exchange = lambda pairs: mapped(lambda e: sympy.sympify(e).subs(pairs, simultaneous=True))  # noqa: E731
     angles = [symbol for symbol in symbols if is_angle(symbol)]
     yield "factor 2", mapped(lambda e: 2 * e)
-    yield "sign", mapped(lambda e: -e)
+    if not isinstance(answer, sympy.MatrixBase):
+        yield "sign", mapped(lambda e: -e)
     if angles:
         yield "degrees", exchange({symbol: symbol * sympy.pi / 180 for symbol in angles})
         yield (
@@ -232,11 +233,38 @@ def known_mistakes(question):
         elif form.shape:
             answer = [sympy.sympify(entry) for entry in answer]
         yield from expressions(answer)
+    elif form.kind in ("number", "vector", "transform") and not form.symbols:
+        numbers = np.array(
+            sympy.Matrix(answer).tolist() if isinstance(answer, sympy.MatrixBase) else answer, dtype=float
+        )
+        if (numbers != numbers.round()).any():  # no counts, no marks
+            yield from own_numbers(numbers, list(question.angles))
+
+
+def own_numbers(answer, angles):
+    """On a number, a vector or a transform of the student's own numbers."""
+    if answer.ndim == 2:
+        yield "transposed", answer.T
+        yield "inverse", np.linalg.inv(answer)
+        return
+    yield "sign", -answer
+    yield "factor 2", 2 * answer
+    if answer.ndim == 1:
+        for k, entry in enumerate(answer):
+            if entry:
+                yield f"sign of {k}", answer * np.where(np.arange(len(answer)) == k, -1, 1)
+        for i, k in combinations(range(len(answer)), 2):
+            yield f"entries {i} {k}", answer[[k if j == i else i if j == k else j for j in range(len(answer))]]
+        for k in angles:
+            yield f"degrees {k}", np.where(np.arange(len(answer)) == k, np.degrees(answer), answer)
+    else:
+        yield "decimal", 10 * answer
 
 
 def judged(question):
     """What every known mistake gets, where it is wrong at all."""
     for name, answer in known_mistakes(question):
+        answer = answer.tolist() if isinstance(answer, np.ndarray) else answer
         found = verdict(question, answer)
         if found.share < 1:
             yield name, found

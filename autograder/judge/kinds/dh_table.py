@@ -9,7 +9,7 @@ import numpy as np
 
 from dhkit.forms.dh_table import DH_COLUMNS, DHTable
 
-from ..chain import JudgedChain, NotAChain, same_chain
+from ..chain import SAME_MODEL, JudgedChain, NotAChain, same_chain
 from ..chain.freedoms import Pins
 from ..chain.senses import agreeing, best_senses, in_senses
 from ..decode import Blank
@@ -50,7 +50,9 @@ def compare(form: DHTable, student: Entries, other: Entries, setting: Setting) -
     differing = _differing(student, other, setting)
     if match.parting:
         return differing
-    return Comparison(False, 1.0, match.remarks, "same_chain_other_frames")
+    moved = any(used.freedom in SAME_MODEL for used in match.pinned)
+    remarks = (*match.remarks, *(differing.remarks if moved else ()))
+    return Comparison(False, 1.0, remarks, "same_chain_other_frames")
 
 
 def rows_of(entries: Entries, setting: Setting) -> np.ndarray:

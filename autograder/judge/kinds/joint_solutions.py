@@ -47,7 +47,7 @@ def compare(form: JointSolutions, student: np.ndarray, other: np.ndarray, settin
 
 
 def _wrong(mine: np.ndarray, extra: np.ndarray, setting: Setting) -> str:
-    count = f"{int(extra.sum())} of the {len(mine)} given"
+    count = f"{int(extra.sum())} of the {len(mine)} given" if len(mine) > 1 else "the one given"
     if setting.residual is None:
         return f"{count} {'does' if extra.sum() == 1 else 'do'} not reach the target"
     residuals = setting.residual(mine[extra])

@@ -89,19 +89,23 @@ def explain(student: np.ndarray, asked: Asked) -> Slip | None:
     if found:
         # What a sign inside does, a symbol or the whole answer explains better.
         inside = ("sign_of_a_term", "sign_inside_atan2")
-        return _told([each for each in found.values() if each.note not in inside] or list(found.values()))
+        different = np.flatnonzero(~asked.agree(student, ours)).tolist()
+        where = f": {asked.place(different[0])}" if len(different) == 1 < ours.shape[1] else ""
+        return _told([each for each in found.values() if each.note not in inside] or list(found.values()), where)
     return _explain_entries(student, ours, asked)
 
 
-def _told(found: list[_Found]) -> Slip:
+def _told(found: list[_Found], where: str) -> Slip:
     first = found[0]
     if len(found) == 1:
-        return Slip(first.note, first.share, f"**{first.said[0].upper()}{first.said[1:]}.** {first.hint}".strip())
+        return Slip(
+            first.note, first.share, f"**{first.said[0].upper()}{first.said[1:]}{where}.** {first.hint}".strip()
+        )
     said = "; or ".join(each.said for each in found)
     return Slip(
         first.note,
         min(each.share for each in found),
-        f"**One of these, which come to the same here: {said}.** {first.hint}".strip(),
+        f"**One of these, which come to the same here: {said}{where}.** {first.hint}".strip(),
     )
 
 
@@ -119,7 +123,8 @@ def _candidates(asked: Asked, ours: np.ndarray) -> Iterator[tuple[_Found, np.nda
 
 
 def _scaled(asked: Asked, ours: np.ndarray) -> Iterator[tuple[_Found, np.ndarray]]:
-    yield _Found("sign_turned", 0.6, "the sign is turned everywhere", "Which sense is counted as positive?"), -ours
+    if len(asked.shape) < 2:
+        yield _Found("sign_turned", 0.6, "the sign is turned everywhere", "Which sense is counted as positive?"), -ours
     for factor in (2.0, 0.5):
         yield (
             _Found(
@@ -289,6 +294,7 @@ def _of_trees(asked: Asked, ours: np.ndarray) -> Iterator[tuple[_Found, np.ndarr
         for chosen in [{call: changed} for call, changed in swaps.items()] + ([swaps] if len(swaps) > 1 else []):
             wrong = [_replaced(entry, chosen) for entry in asked.right]
             yield found, asked.values(wrong)
+    yield from _of_sums(asked, calls)
     if not asked.samples:
         return
     degrees = [_in_degrees(entry) for entry in asked.right]
@@ -301,6 +307,18 @@ def _of_trees(asked: Asked, ours: np.ndarray) -> Iterator[tuple[_Found, np.ndarr
         _Found("sine_and_cosine_exchanged", 0.5, "sine and cosine are exchanged", "Try it with all angles zero."),
         asked.values(exchanged),
     )
+
+
+def _of_sums(asked: Asked, calls: Sequence[Call]) -> Iterator[tuple[_Found, np.ndarray]]:
+    """One term of a sum inside the answer has the other sign, or is not there."""
+    places = [(call, k) for call in calls if call.function == "add" for k in range(len(call.args))]
+    turned = _Found("sign_of_a_term", 0.6, "one of the terms has the wrong sign", "Write them one by one.")
+    missing = _Found("term_missing", 0.5, "one of the terms is missing", "Count them.")
+    for call, k in places[:MOST_PLACES]:
+        before, term, after = call.args[:k], call.args[k], call.args[k + 1 :]
+        for found, args in ((turned, (*before, Call("mul", (_MINUS, term)), *after)), (missing, (*before, *after))):
+            wrong = [_replaced(entry, {call: Call("add", args)}) for entry in asked.right]
+            yield found, asked.values(wrong)
 
 
 def _calls(entry: Expression) -> Iterator[Call]:

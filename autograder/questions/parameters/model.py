@@ -168,9 +168,11 @@ def find_link(P, u, Q, v, *, distance="lines", scaled=True, parallel=True, slack
     for meeting.
     """
     size = np.linalg.norm(np.cross(u, v))
-    if not parallel and size < ALLOWED * np.linalg.norm(u) * np.linalg.norm(v):
+    if not parallel and not size:
         raise ZeroDivisionError("the axes are parallel")
     a, alpha = link((P, u), (Q, v))
+    if not parallel and size < ALLOWED:
+        a = float(abs(np.subtract(Q, P) @ np.cross(u, v)) / size)
     if slack > ALLOWED:
         if size < slack:
             a = float(np.linalg.norm(np.cross(np.subtract(Q, P), u)) / np.linalg.norm(u))

@@ -237,7 +237,10 @@ QUESTIONS = (
                 "only_the_elbow_has_stops",
                 0.5,
                 "**Only the stop of joint 2 is looked at.** Each posture needs a theta1 that joint 1 can take.",
-                wrong={"allowed": lambda q, limits: lies_between(q[1], *limits[1])},
+                wrong=[
+                    {"allowed": lambda q, limits: lies_between(q[1], *limits[1])},
+                    {"allowed": lambda q, limits: limits[1][0] <= q[1] <= limits[1][1]},
+                ],
             ),
             mistake(
                 "one_posture_missing",

@@ -101,6 +101,10 @@ class Form:
         """All that is needed to compare two answers exactly, (m,)."""
         return self.invariants(node, sight).get("", np.zeros(0))
 
+    def essential(self, witness: np.ndarray) -> np.ndarray:
+        """What of a right answer's witness another one must share to be right; to be a mistake that has a name, all of it."""
+        return witness
+
     def agree(self, first: np.ndarray, second: np.ndarray, sight: Sight) -> bool:
         """Whether two answers are equal, by what `witness` says of them."""
         return first.shape == second.shape and bool((np.abs(first - second) <= sight.tolerance).all())

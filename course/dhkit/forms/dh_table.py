@@ -41,7 +41,7 @@ class DHTable(Symbolic, frozen=True, kw_only=True):
         return nodes.rows_in_order(node, DH_COLUMNS)
 
     def invariants(self, node: object, sight: Sight) -> Parts:
-        """The hand at every point, sigma of the joints, and what is pinned of the frames between."""
+        """The hand at every point, sigma of every row, and what is pinned of the frames between."""
         found = seen(node, sight)
         if found is None:
             return {}
@@ -51,5 +51,21 @@ class DHTable(Symbolic, frozen=True, kw_only=True):
             frames.append(frames[-1] @ step)
         columns = [{"x": 0, "z": 2, "origin": 3}[pin] for pin in sight.pins]
         pinned = np.array(frames[1:-1]).reshape(-1, 4, 4)[:, :3, columns]
-        looks = (frames[-1][:, :3].ravel(), sigma[:, : len(self.joints)].ravel(), pinned.ravel())
+        looks = (frames[-1][:, :3].ravel(), sigma.ravel(), pinned.ravel())
         return {"": squeezed(np.concatenate(looks)[None])}
+
+    def witness(self, node: object, sight: Sight) -> np.ndarray:
+        """Behind what is the same for all tables of a chain, the cells as they are written: by them mistakes are told apart."""
+        found = seen(node, sight)
+        if found is None:
+            return np.zeros(0)
+        angles = tuple(i for i in range(found.shape[1]) if DH_COLUMNS[i % len(DH_COLUMNS)] in ("alpha", "theta"))
+        return np.concatenate([self.invariants(node, sight)[""], squeezed(found[:1], angles)])
+
+    def essential(self, witness: np.ndarray) -> np.ndarray:
+        # Of the five cells of a row two are angles, each a cosine and a sine.
+        return witness[: len(witness) - 7 * self.shape[0]]
+
+    def agree(self, first: np.ndarray, second: np.ndarray, sight: Sight) -> bool:
+        shared = min(len(first), len(second))
+        return shared > 0 and super().agree(first[:shared], second[:shared], sight)
