@@ -8,12 +8,17 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from dhkit.home.envelopes import SUFFIX
+from dhkit.variants import LIST, mark
 
 from .errors import CourseError
+from .roster import read_roster
 
 FOLDERS = ("course", "exercises")
 FOR_LECTURERS = ("course/13_errata.ipynb",)
 """Notebooks that stay with the lecturer: they answer "find the slide's error" and import the autograder."""
+
+IDS = f"course/dhkit/{LIST}"
+"""With it the kit tells who types an id that is not on the roster; it names nobody."""
 
 _LEFT_OUT = {"build", "__pycache__", ".ipynb_checkpoints", ".pytest_cache"}
 _MARKS = ("BEGIN SOLUTION", "END SOLUTION", "BEGIN HIDDEN TESTS")
@@ -61,7 +66,10 @@ def write_bundle(root: Path, target: Path) -> list[str]:
         archive.writestr(zipfile.ZipInfo(f"{top}/README.md", _EPOCH), README + _unsealed(files), zipfile.ZIP_DEFLATED)
         for name, path in files.items():
             archive.writestr(zipfile.ZipInfo(f"{top}/{name}", _EPOCH), path.read_bytes(), zipfile.ZIP_DEFLATED)
-    return ["README.md", *files]
+        if people := read_roster(root).people:
+            marks = "".join(sorted(f"{mark(person.id)}\n" for person in people))
+            archive.writestr(zipfile.ZipInfo(f"{top}/{IDS}", _EPOCH), marks, zipfile.ZIP_DEFLATED)
+    return ["README.md", *files, *([IDS] if people else [])]
 
 
 def _unsealed(files: Iterable[str]) -> str:

@@ -11,11 +11,14 @@ from __future__ import annotations
 import hashlib
 import unicodedata
 from functools import cache
+from importlib.resources import files
 from itertools import count
 
 from .public import variant_ranges
 
 NOBODY = "nobody"
+LIST = "ids.txt"
+"""Beside this module in what students get: the marks of the ids of the course, one a line."""
 SETS = 64
 """Sets of numbers of an exercise."""
 
@@ -60,6 +63,23 @@ def normal_form(student: str) -> str:
     return "".join(filter(str.isalnum, folded)) or "".join(folded.split())
 
 
+def mark(student: str) -> str:
+    """What stands for an id in the list of the course, which so names nobody."""
+    return hashlib.sha256(f"id {normal_form(student)}".encode()).hexdigest()[:12]
+
+
+def is_listed(student: str) -> bool:
+    """Whether an id is in the list of the course; True where there is no list."""
+    marks = _marks()
+    return marks is None or mark(student) in marks
+
+
+@cache
+def _marks() -> frozenset[str] | None:
+    file = files(__package__) / LIST
+    return frozenset(file.read_text(encoding="ascii").split()) if file.is_file() else None
+
+
 def _pick(range_: tuple, text: str) -> float | str:
     chance = _hash(text)
     if isinstance(range_[0], str):
@@ -84,9 +104,11 @@ class OwnNumbers(dict):
             raise AttributeError(f"there is no number {name!r}; there are {', '.join(self)}") from None
 
     def _repr_markdown_(self) -> str:
-        whose = (
-            f"Numbers of **{self.student}**" if self.student != NOBODY else "**Nobody's numbers: type your id above**"
-        )
+        whose = f"Numbers of **{self.student}**"
+        if self.student == NOBODY:
+            whose = "**Nobody's numbers: type your id above**"
+        elif not is_listed(self.student):
+            whose = f"**{self.student} is not in the list of the course; type your id as it stands there.** Numbers"
         return f"{whose}: " + ", ".join(f"{name} = {value}" for name, value in self.items())
 
 

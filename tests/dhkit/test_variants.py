@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from dhkit import variants, wire
-from dhkit.variants import normal_form, numbers, variant
+from dhkit.variants import mark, normal_form, numbers, variant
 
 RANGES = {"L1": (0.4, 0.6, 0.02), "x": (-0.3, 0.3, 0.1), "elbow": ("up", "down")}
 
@@ -110,3 +110,16 @@ def test_check_tells_the_grader_which_id_was_typed(monkeypatch):
     variant("planar_2r", "ada")
     check.check("planar_2r.centre", "A")
     assert sent[-1]["student"] == "ada"
+
+
+def test_an_id_that_is_not_in_the_list_of_the_course_is_told(monkeypatch):
+    monkeypatch.setattr(variants, "_marks", lambda: frozenset(map(mark, ["José O'Brien", "ada"])))
+    for listed in ("jose obrien", "ADA "):
+        assert "not in the list" not in variant("arm", listed)._repr_markdown_()
+    told = variant("arm", "Joes OBrien")._repr_markdown_()
+    assert told.startswith("**Joes OBrien is not in the list of the course; ") and "L1 = " in told
+    assert "type your id above" in variant("arm")._repr_markdown_()
+
+
+def test_without_a_list_any_id_will_do():
+    assert variants.is_listed("anybody") and "Numbers of **anybody**" in variant("arm", "anybody")._repr_markdown_()

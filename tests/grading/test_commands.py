@@ -24,6 +24,7 @@ from autograder.grading import doctor
 from autograder.grading.bundle import FOR_LECTURERS
 from autograder.grading.plugins.preprocessors import SandboxExecute
 from autograder.sandbox import Limits
+from dhkit.variants import mark
 
 
 def run(root, *words):
@@ -257,6 +258,15 @@ def test_the_bundle_holds_the_students_half_only(with_kit, small, tmp_path):
     first = target.read_bytes()
     os.utime(with_kit / "exercises/scara/scara.ipynb")
     assert run(with_kit, "bundle", "--to", str(target)) == 0 and target.read_bytes() == first
+
+
+def test_the_bundle_knows_the_ids_and_names_nobody(with_kit, tmp_path):
+    (with_kit / "students.csv").write_text("id,last_name\nada,Lovelace\nZoë O'Brien,\n", encoding="utf-8")
+    assert run(with_kit, "bundle", "--to", str(tmp_path / "robots.zip")) == 0
+    with zipfile.ZipFile(tmp_path / "robots.zip") as bundle:
+        marks = bundle.read("robots/course/dhkit/ids.txt").decode().split()
+        assert sorted(marks) == sorted(map(mark, ["ada", "zoe obrien"]))
+        assert not [name for name in bundle.namelist() if b"Lovelace" in bundle.read(name)]
 
 
 @pytest.mark.parametrize("leak", ["### BEGIN SOLUTION\\nT04 = 1\\n### END SOLUTION", "T04 = the_answer"])
