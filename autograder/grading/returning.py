@@ -229,7 +229,8 @@ def _owners_on_moodle(known: _Class, table: MoodleTable | None) -> dict[str, str
         return {number: student for number, student in collected.items() if student not in known.teams.values()}
     owners: dict[str, str] = {}
     named: dict[str, list[str]] = {}
-    for number, (person, _) in people_of_numbers([table.path], known.roster).items():
+    people = people_of_numbers([table.path], known.roster)
+    for number, (person, _) in people.items():
         student = collected.get(number)
         if student and _fits(known.receipts[student], person):
             owners[number] = student
@@ -243,8 +244,9 @@ def _owners_on_moodle(known: _Class, table: MoodleTable | None) -> dict[str, str
         for student, numbers in named.items()
         if len(numbers) == 1 and student not in owners.values()
     }
-    unnamed = {number: collected[number] for number in map(table.number, table.rows) if number in collected}
-    return {**{number: one for number, one in unnamed.items() if not known.receipts[one].name}, **alone, **owners}
+    numbers = collected.keys() & set(map(table.number, table.rows)) - people.keys()
+    unnamed = {number: collected[number] for number in numbers if collected[number] not in known.teams.values()}
+    return {**unnamed, **alone, **owners}
 
 
 def _fits(receipt: Receipt, person: Person) -> bool:

@@ -85,10 +85,23 @@ def read_moodle(path: Path) -> MoodleTable | None:
         if any(name in plain for name in names)
     }
     table = MoodleTable(path, header, [row for row in rows if any(row)], columns)
-    if "identifier" in columns and not any(map(table.number, table.rows)):
+    if not any(map(table.number, table.rows)):
+        columns["identifier"] = 0  # in whatever language: Moodle puts it first, and the most points behind the grade
+    if not any(map(table.number, table.rows)):
         del columns["identifier"]
+    elif "grade" not in columns and (place := _same_number(table)) > 1:
+        columns |= {"grade": place - 1, "maximum": place}
     known = columns.keys() >= {"last_name", "first_name"} or "name" in columns or "identifier" in columns
     return table if known else None
+
+
+def _same_number(table: MoodleTable) -> int:
+    """The first column in which everybody has one and the same number; 0 if there is none."""
+    for place in range(1, len(table.header)):
+        cells = {row[place].strip() if place < len(row) else "" for row in table.rows}
+        if len(cells) == 1 and re.fullmatch(r"\d+([.,]\d+)?", cells.pop()):
+            return place
+    return 0
 
 
 def read_canvas(path: Path) -> list[Person] | None:

@@ -127,6 +127,21 @@ def test_a_worksheet_of_another_site_keeps_its_language_and_its_commas(graded, t
     ]  # fmt: skip
 
 
+def test_a_worksheet_in_a_language_that_is_not_known(graded, tmp_path):
+    worksheet = tmp_path / "arkusz.csv"
+    worksheet.write_text(
+        "Identyfikator,Imię,Status,Ocena,Maksymalna ocena,Zmiana,Ostatnia modyfikacja (ocena)\n"
+        "Uczestnik 4711,Ada Lovelace,x,,20.00,Tak,-\nUczestnik 4712,Zoë O'Brien,x,,20.00,Tak,-\n"
+    )
+    return_moodle(open_course(graded["moodle"]), "scara", worksheet, tmp_path, False)
+    rows = list(csv.reader((tmp_path / "scara-grades.csv").open(encoding="utf-8")))
+    assert [row[3] for row in rows] == ["Ocena", "20.00", "4.00"]
+    pages = moodle_reads_feedback(
+        (tmp_path / "scara-feedback.zip").read_bytes(), {"4711": "ada", "4712": "zoe", "4713": "ben"}
+    )
+    assert pages.keys() == {"ada", "zoe"}
+
+
 def test_without_receipts_the_worksheet_tells_the_numbers(graded, tmp_path):
     root = graded["moodle"]
     receipts = root / "downloaded/scara/collected.json"
