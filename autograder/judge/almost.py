@@ -102,7 +102,9 @@ def _decimals_kept(form: Form, answer: object, setting: Setting, compare: Compar
         rounded = values == values.round(places)
         # With one decimal much comes near: then all of the answer must look like it.
         if rounded.any() if places > 1 else rounded.all():
-            slack = np.where(rounded, 0.5001 * 10.0**-places, 0.0)
+            # Digits may have been cut off, too.
+            off = 1.0001 if places > 1 else 0.5001
+            slack = np.where(rounded, off * 10.0**-places, 0.0)
             if compare(answer, replace(setting, slack=slack)).equal:
                 return places
     return None

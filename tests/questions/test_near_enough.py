@@ -104,6 +104,8 @@ def test_numbers_with_too_few_decimals_are_told_so_and_earn_most(question):
     decimals = question.form.decimals
     exact = np.array(right(question), dtype=float)
     for places in range(decimals - 1, 1, -1):
+        cut = np.trunc(exact * 10**places) / 10**places
+        assert verdict(question, cut).note in ("right", NOTE)
         found = verdict(question, rounded(exact, places))
         far = np.abs(exact - rounded(exact, places)).max() > question.accuracy
         family = isinstance(question.answer(STUDENT), Family)
