@@ -75,7 +75,8 @@ class _Found:
 
 def explain(student: np.ndarray, asked: Asked) -> Slip | None:
     """The slip that makes the right answer into the student's values (N, m); None if nothing is certain."""
-    if not np.isfinite(student).all():
+    # Nothing but zeros is no slip, however small a change has made the right answer.
+    if not np.isfinite(student).all() or asked.agree(student, np.zeros_like(student)).all():
         return None
     ours = asked.values(asked.right)
     if not np.abs(ours).max() > 0:
