@@ -97,7 +97,7 @@ class _Class:
         return person is not None and self.exercise in person.exempt
 
     def points(self, student: str, maximum: float | None, scale: bool) -> float | None:
-        """Points as the platform counts them: of its own maximum, and not above it."""
+        """Points as the platform counts them, by its own maximum; None where there are none to give."""
         grade = self.grades.get(student)
         if grade is None or self.is_exempt(student):
             return None
@@ -362,7 +362,9 @@ def _write(
             remarks.append("no feedback file: the platform's number is not known; collect its download")
         if student not in known.grades and not remarks:
             remarks.append(receipt.missing if receipt and receipt.missing else "not graded")
-        if (grade := known.grades.get(student)) and grade.penalty:
+        if (grade := known.grades.get(student)) and grade.bonus:
+            remarks.append(f"{grade.bonus:g} of them extra")
+        if grade and grade.penalty:
             remarks.append(f"late: {grade.penalty:g} points taken off")
         lines.append(Returned(student, points.get(student), tuple(remarks)))
     return lines

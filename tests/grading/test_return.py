@@ -111,7 +111,10 @@ def test_moodle_finds_every_page_and_every_grade(graded, tmp_path):
     assert [[cell for at, cell in enumerate(row) if at != place] for row in [header, *rows]] == [
         [cell for at, cell in enumerate(row) if at != place] for row in before
     ]
-    assert lines["Ada Lovelace"].remarks == ("21.5 is more than Moodle takes; the bonus is cut at 20",)
+    assert lines["Ada Lovelace"].remarks == (
+        "21.5 is more than Moodle takes; the bonus is cut at 20",
+        "1.5 of them extra",
+    )
     assert lines["Cid Campeador"] == type(lines["zoe"])("Cid Campeador", None, ("no notebook: handed in: report.pdf",))
     assert lines["Dan"].points is None and lines["zoe"].remarks == ()
 
