@@ -1,5 +1,6 @@
 """Right, or near enough: rounded numbers and constant angles earn what they deserve, in every question; wrong ones nothing."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import nbformat
@@ -8,9 +9,11 @@ import pytest
 import sympy
 from answers import STUDENT, entries, right, verdict
 
-from autograder.judge import Family
+from autograder.judge import Family, kinds
 from autograder.judge.almost import ROUNDED as NOTE
+from autograder.judge.decode import decode
 from autograder.questions import exercises
+from dhkit import wire
 
 pytestmark = pytest.mark.slow
 
@@ -134,6 +137,19 @@ def test_functions_may_round_to_the_decimals_that_are_asked_for(question):
     assert verdict(question, shortened(decimals)).note == "right"
     found = verdict(question, shortened(2))
     assert (found.note, found.share) in (("right", 1.0), (NOTE, 0.8)), found
+
+
+@pytest.mark.parametrize(
+    "question",
+    [q for q in DATA if q.form.kind in ("matrix", "transform", "dh_table", "vector", "expression")],
+    ids=by_id,
+)
+@pytest.mark.parametrize("size", [1e9, 1e160, 1e300])
+def test_an_answer_is_equal_to_itself_however_large_its_values_are(question, size):
+    answer = kinds.read(question.form, decode(wire.encode(right(question))))
+    again = kinds.read(question.form, decode(wire.encode(right(question))))
+    large = {name: values * size for name, values in question.samples.items()}
+    assert kinds.compare(question.form, answer, again, replace(question.setting(), samples=large)).equal
 
 
 def is_whole(question):
