@@ -5,7 +5,10 @@
 other numbers to try with, ``dhkit.drawing`` draws.
 """
 
+from . import names
 from .check import check, hint, solution
 from .home import practice, progress
 
 __all__ = ["check", "hint", "practice", "progress", "solution"]
+
+names.keep({"check": check, "hint": hint, "practice": practice, "solution": solution})

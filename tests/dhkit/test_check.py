@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import sympy
 
-from dhkit import check, hint, public, wire
+from dhkit import check, hint, names, public, wire
 from dhkit.check import answer_probes
 from dhkit.public import from_table
 from dhkit.public_checks import is_rigid
@@ -146,3 +146,20 @@ def test_probes_answer_value_by_value(monkeypatch):
 def test_public_question_is_frozen():
     with pytest.raises(AttributeError):
         public.find("demo.model").title = "another"
+
+
+def test_a_variable_called_check_takes_no_name_from_a_check_cell(monkeypatch):
+    from IPython.core.interactiveshell import InteractiveShell
+
+    shell, handed_in = InteractiveShell(), []
+    monkeypatch.setattr("IPython.get_ipython", lambda: shell)
+    names.keep({"check": lambda id, answer: handed_in.append((id, answer))})
+    for cell in (
+        "check = (1 == 1)",
+        "check = check and True",
+        'check("scara.T04", 7)',
+        "check = len",
+        'size = check("ab")',
+    ):
+        assert shell.run_cell(cell).success, cell
+    assert handed_in == [("scara.T04", 7)] and shell.user_ns["size"] == 2
