@@ -103,7 +103,7 @@ def describe(node: object) -> str:
         case {"large": words}:
             return str(words)
         case {"unknown": kind}:
-            return f"an object of type {kind}"
+            return f"an object of type {str(kind).rpartition('.')[2]}"
         case {"error": message}:
             return f"an error ({message})"
     return "an expression"

@@ -74,7 +74,7 @@ def test_right_and_wrong_public_checks(capsys):
     [
         ("demo.model", [1, 2, 3], "found an array of shape 3"),
         ("demo.model", [sympy.Symbol("q"), 1], "found the symbol q"),
-        ("demo.model", object(), "found an object of type builtins.object"),
+        ("demo.model", object(), "found an object of type object"),
         ("demo.T", [[1, 2], [3]], "different lengths"),
         ("demo.f", 3, "found a number"),
     ],

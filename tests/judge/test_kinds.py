@@ -191,7 +191,7 @@ def test_no_solution_is_an_answer():
         (EXPRESSION, x, "symbol x"),
         (EXPRESSION, [1, 2], "shape 2"),
         (EXPRESSION, "t1", "text"),
-        (EXPRESSION, object(), "builtins.object"),
+        (EXPRESSION, object(), "type object"),
         (EXPRESSION, {"t1": 1, "t2": 2}, "dictionary"),
         (question("matrix", shape=[2, 2]), [[1, 2], [3]], "different lengths"),
         (question("vector", shape=[3]), [[1, 2, 3], [1, 2, 3]], "2 x 3"),
