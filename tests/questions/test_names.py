@@ -4,7 +4,7 @@ import pytest
 import sympy
 from answers import STUDENT, right, verdict
 
-from autograder.questions import find
+from autograder.questions import exercises, find
 from autograder.questions.pen_robot.model import COMMON_SHARES
 
 psi, theta, phi = sympy.symbols("psi theta phi")
@@ -90,3 +90,17 @@ def test_what_does_not_fail_is_not_said_to_fail():
         inverse = question.answer(STUDENT)
         found = verdict(question, lambda *args, f=inverse: f(*args) or [(None, None)])
         assert "does not return an empty list" in found.feedback and "fails" not in found.feedback
+
+
+NAMED = [q for qs in exercises().values() for q in qs if q.form.kind == "vector" and q.form.names and q.places]
+
+
+@pytest.mark.parametrize("question", NAMED, ids=lambda question: question.id)
+def test_names_of_entries_keep_their_letters(question):
+    """x is not X, and a is not A."""
+    for k, name in enumerate(question.form.names):
+        answer = [sympy.sympify(entry) for entry in right(question)]
+        answer[k] = answer[k] + sympy.Rational(37, 100)
+        found = verdict(question, answer)
+        assert found.share < 1 and name in found.feedback, found
+        assert f"**{name[0].upper()}{name[1:]}" not in found.feedback or name[0].isupper()
