@@ -63,7 +63,7 @@ def judge_results(question: Question, arguments: list[list], results: Sequence[D
     verdict = walk(
         question,
         student,
-        Comparison(not wrong, _count(answers) / len(cases), remarks),
+        Comparison(not wrong, _count(answers) / len(cases), remarks, _common_note(cases)),
         lambda ways, turn: all(compare(ways, turn, *call).equal for call in calls),
         lambda: explain_results(question, calls, student, beside),
     )
@@ -127,6 +127,12 @@ def _count(answers: list[set[str]]) -> int:
     answer, and they count only beside a case that has another.
     """
     return len(answers) if len(set().union(*answers)) > 1 else 0
+
+
+def _common_note(cases: Mapping[str, list[Call]]) -> str:
+    """The name of a difference that all wrong results share, if they do."""
+    notes = {call.compared.note for asked in cases.values() for call in asked if not call.compared.equal}
+    return notes.pop() if len(notes) == 1 else ""
 
 
 def _describe(case: str, call: Call) -> str:

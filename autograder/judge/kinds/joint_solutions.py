@@ -15,6 +15,9 @@ from .entries import real_values
 __all__ = ["compare", "read"]
 
 
+SOLUTIONS_MISSING = "solutions_missing"
+
+
 def read(form: JointSolutions, value: Value) -> np.ndarray:
     """Rows of joint values, (k, n)."""
     return real_values(value).reshape(-1, len(form.joints))
@@ -42,8 +45,14 @@ def compare(form: JointSolutions, student: np.ndarray, other: np.ndarray, settin
         remarks.append("there is no solution here, the answer gives some")
     elif extra.any():
         remarks.append(_wrong(mine, extra, setting))
+    note = ""
+    if missing and len(mine) and not extra.any():
+        note = SOLUTIONS_MISSING
+        remarks.append(
+            f"what is given is right{'; each cosine and each root has two signs' if len(theirs) > 1 else ''}"
+        )
     most = max(len(theirs), len(mine))
-    return Comparison(not remarks, (len(theirs) - missing) / most if most else 1.0, tuple(remarks))
+    return Comparison(not remarks, (len(theirs) - missing) / most if most else 1.0, tuple(remarks), note)
 
 
 def _wrong(mine: np.ndarray, extra: np.ndarray, setting: Setting) -> str:
