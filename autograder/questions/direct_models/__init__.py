@@ -10,6 +10,7 @@ from autograder.judge.misconceptions import (
     angle_not_summed,
     angles_subtracted,
     arguments_in_degrees,
+    classic_matrix,
     classic_table,
     hypotenuse,
     offset_misplaced,
@@ -39,6 +40,7 @@ from .model import (
     PRINTED_U0,
     PRINTED_U2,
     ROWS,
+    RX90,
     TOOL_BASE_FIRST,
     TOOL_POINT,
     TRANSFORMS,
@@ -291,6 +293,7 @@ QUESTIONS = (
                 lambda _: PRINTED_U2,
             ),
             reversed_product(*TRANSFORMS[2:]),
+            classic_matrix(*(row.parameters for row in RX90.rows[2:]), note="classic_matrices"),
             one_factor_missing(
                 U3, feedback="**The recursion stopped one step too early.** This is U3 = 3T6: joint 3 is not in it."
             ),
@@ -314,6 +317,7 @@ QUESTIONS = (
                 feedback="**theta2 and theta3 are subtracted.** Axes 2 and 3 are parallel and of the same sense: their angles add "
                 "up, and the slides write C23 and S23.",
             ),
+            classic_matrix(*(row.parameters for row in RX90.rows), note="classic_matrices"),
             one_factor_missing(
                 U1, feedback="**The recursion stopped one step too early.** This is U1 = 1T6: joint 1 is not in it."
             ),

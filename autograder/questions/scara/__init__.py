@@ -81,6 +81,7 @@ QUESTIONS = (
         mistakes=(
             quill_turned(),
             reversed_product(*TRANSFORMS[1:]),
+            classic_matrix(*(row[1:] for row in ROWS[1:]), note="classic_matrices"),
             mistake(
                 "one_matrix_only",
                 0.2,
@@ -157,6 +158,7 @@ QUESTIONS = (
             mistake("sign_of_d2", 0.7, D2_IS_A_DEPTH, wrong={"depth": -1}),
             arguments_in_degrees({"unit": np.pi / 180}),
             angles_subtracted(wrong={"elbow": -1}),
+            classic_matrix(note="classic_matrices", wrong={"convention": "classic"}),
         ),
         probe=draw_arguments,
     ),

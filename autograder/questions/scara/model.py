@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import sympy
 
-from autograder.judge.misconceptions import symbol_negated
+from autograder.judge.misconceptions import product, symbol_negated
 from autograder.reference import DHTable, robots
+from autograder.reference.transforms import classic_dh
 
 from ..shared.residuals import distance_and_turn
 from ..shared.tables import list_rows
@@ -29,15 +30,18 @@ D2_IS_A_DEPTH = (
     "slides print the table twice, once with each sign: only one of them goes with their matrices."
 )
 
-_pose = sympy.lambdify([t1, t2, d2, t4, a2, a3], U0)
+_CLASSIC = product([classic_dh(*row[1:]) for row in ROWS])
+_pose, _classic_pose = (sympy.lambdify([t1, t2, d2, t4, a2, a3], matrix) for matrix in (U0, _CLASSIC))
 
 
-def forward(t1, t2, d2, t4, a2, a3, *, elbow=1, depth=1, unit=1.0) -> np.ndarray:
+def forward(t1, t2, d2, t4, a2, a3, *, elbow=1, depth=1, unit=1.0, convention="modified") -> np.ndarray:
     """The direct model as a function of numbers, (4, 4).
 
-    `elbow` and `depth` are the signs with which t2 and d2 enter; `unit` is that of the angles, in radians.
+    `elbow` and `depth` are the signs with which t2 and d2 enter; `unit` is that of the angles, in radians; the matrices of
+    the rows may be those of the ``"classic"`` convention.
     """
-    return _pose(unit * t1, unit * elbow * t2, depth * d2, unit * t4, a2, a3)
+    pose = _pose if convention == "modified" else _classic_pose
+    return pose(unit * t1, unit * elbow * t2, depth * d2, unit * t4, a2, a3)
 
 
 def draw_arguments(rng: np.random.Generator) -> list[list[float]]:
