@@ -160,6 +160,13 @@ QUESTIONS = (
                 change_last_columns(lambda column, i: CENTRES[i]),
             ),
             mistake(
+                "centres_missing",
+                0.4,
+                "**The turns have lost their centres: all six go about the origin.** Which axes do not pass through it, and what does a turn "
+                "about the origin do to a point of theirs?",
+                change_last_columns(lambda column, i: [0, 0, 0]),
+            ),
+            mistake(
                 "elbow_at_the_wrist",
                 0.6,
                 "**K3 and K5 turn about the same height.** Axis 3 is at the elbow, axis 5 at the wrist; read both heights from "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import sympy
 
 from autograder.judge import Question, mistake
 from autograder.judge.misconceptions import (
@@ -250,6 +251,14 @@ QUESTIONS = (
                 lambda angle: -angle,
             ),
             atan_for_atan2(feedback=QUADRANT_LOST),
+            mistake(
+                "sine_or_cosine_alone",
+                0.5,
+                "**An arcsine or an arccosine alone knows half of the circle.** Both the sine and the cosine of the angle stand in the matrix: "
+                "use them together.",
+                lambda angle: sympy.asin(angle.args[0]),
+                lambda angle: sympy.acos(angle.args[1]),
+            ),
             atan2_arguments_exchanged(),
         ),
         angles=(0,),

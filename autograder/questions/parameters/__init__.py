@@ -243,6 +243,13 @@ QUESTIONS = (
                 choose_axes((0, -1), (2, 1), (1, 1)),
                 choose_axes((0, 1), (2, 1), (1, 1)),
             ),
+            mistake(
+                "approach_along_x",
+                0.4,
+                "**X_E points along the way of the hand.** That is Z_E, the approach; X_E is what is left when Z_E and Y_E stand.",
+                choose_axes((2, 1), (1, 1), (0, -1)),
+                choose_axes((2, 1), (1, -1), (0, 1)),
+            ),
             LEFT_HANDED,
             mistake(
                 "degrees",
