@@ -51,7 +51,7 @@ array([[-1.349,  1.571],
 array([1. , 0.3])
 
 **Joint limits and the nearest posture.** With ``limits=True`` only postures within the limits count, in every full
-turn that they allow.
+turn that they allow; of a family, a member that is within them.
 
 >>> narrow = robots.planar_2r(limits=[(-1.0, 1.0), (0.0, 3.0)])
 >>> narrow.inverse(narrow.forward([0.2, 0.9]), limits=True).q.round(3)

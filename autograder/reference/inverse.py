@@ -8,7 +8,7 @@ a batch of one. The closed forms are in `planar_arms` (planar arms, SCARA), `elb
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import ClassVar
 
@@ -17,9 +17,10 @@ from numpy.typing import ArrayLike
 
 from dhkit.geometry import wrap
 
+from .families import Rows, free_joints, grid_of, member, search
 from .forward import Chain
 from .gauge import canonical
-from .limits import clipped, within_limits
+from .limits import SLACK, clipped, every_turn, nearest_turn, outside, slide_lines
 from .solutions import Batch, Nearest, Solutions
 from .status import Failure, Flag
 from .tables import DHTable
@@ -28,6 +29,7 @@ TOLERANCE = 1e-9
 """Metres (radians) by which a pose may miss the workspace and count as on it."""
 
 _RIGID = 1e-5  # how far a transform may be from rigid: poses rounded to six decimals pass
+_MOST_STEPS = 1000  # of the search for the nearest member of a family
 _BLOCK = 1024  # poses treated at a time, so that the intermediate arrays stay in the cache
 
 
@@ -128,7 +130,7 @@ class InverseModel(ABC):
     def reason(self, failure: Failure, excess: float) -> str:
         """Why a pose has no posture, in words: out of reach by `excess` metres or radians, or outside the limits."""
         if failure == Failure.LIMITED:
-            return f"every posture is outside the joint limits, the best one by {excess:.3g} (rad or m)"
+            return f"every posture is outside the joint limits, the best one found by {excess:.3g} (rad or m)"
         return self.unreachable(failure, excess)
 
     def pose(self, task: np.ndarray) -> np.ndarray:
@@ -178,19 +180,26 @@ class InverseModel(ABC):
         tol : float
             Metres by which a target may miss the workspace and still count as on its limit.
         limits : bool
-            Keep only postures within the joint limits, in every full turn that they allow.
+            Keep only postures within the joint limits, in every full turn that they allow (up to three to either side).
+            A family stays if one of its members is within them, and is then represented by one.
 
         Raises
         ------
         ValueError
             For wrong shapes, numbers that are not finite, transforms that are not rigid, and for ``limits=True`` on a
-            robot without joint limits.
+            robot without joint limits, or whose limits allow more postures in all than memory should hold.
         """
         poses = self._poses(T)
         start = self._near(near, len(poses))
         if limits:
-            inside = clipped(self, np.zeros((1, self.joints)) if start is None else start.T)
-            start = np.broadcast_to(inside, (len(poses), self.joints)).T
+            return every_turn(self._within_limits(poses, start, tol))
+        batch = self.members(poses, start, tol)
+        if start is not None:
+            self._slide_towards(batch, start)
+        return batch
+
+    def members(self, poses: np.ndarray, start: np.ndarray | None, tol: float) -> Batch:
+        """The closed form of rigid poses (N, 4, 4) as a batch; start (n, N) fixes what is free, except aligned joints."""
         batch = self._empty_batch(len(poses))
         for first in range(0, len(poses), _BLOCK):
             block = slice(first, first + _BLOCK)
@@ -202,15 +211,47 @@ class InverseModel(ABC):
             if not found.valid.all():
                 found.q[:, ~found.valid] = 0.0
             batch.q[block] = found.q.transpose(2, 1, 0)
-        if start is not None:
-            self._slide_towards(batch, start)
-        return within_limits(batch) if limits else batch
+        return batch
+
+    def _within_limits(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Batch:
+        """The postures within the joint limits, each in one of its turns; near is (n, N)."""
+        wish = np.zeros((len(poses), self.joints)) if near is None else near.T
+        start = clipped(self, wish)
+        batch = self.members(poses, start.T, tol)
+        reached = batch.valid.any(axis=1)
+        miss = self._settle(batch, (start if near is None else wish)[:, None])
+        flags = np.bitwise_or.reduce(np.where(batch.valid, batch.flags, 0), axis=1)
+        searched = np.flatnonzero((miss > SLACK).any(axis=1))
+        for its_flags in np.unique(flags[searched]):
+            free = free_joints(self, int(its_flags))
+            if not free:
+                continue
+            pose, branch = np.nonzero((flags == its_flags)[:, None] & (miss > SLACK))
+            rows = Rows(poses[pose], branch, start[pose])
+            found = replace(rows, near=search(self, rows, free, tol))
+            batch.q[pose, branch], batch.flags[pose, branch], misses = member(self, found, tol)
+            miss[pose, branch] = misses.max(axis=1)
+        valid = miss <= SLACK
+        lost = reached & ~valid.any(axis=1)
+        return replace(
+            batch,
+            q=np.where(valid[..., None], batch.q, 0.0),
+            valid=valid,
+            excess=np.where(lost, miss.min(axis=1), batch.excess),
+            failure=np.where(lost, Failure.LIMITED, batch.failure),
+        )
+
+    def _settle(self, batch: Batch, near: np.ndarray) -> np.ndarray:
+        """Slide aligned joints into the limits, as near to near (..., n) as possible; by how much postures miss them."""
+        slide_lines(self, batch.q, np.where(batch.valid, batch.flags, 0), near)
+        return np.where(batch.valid, outside(self, batch.q).max(axis=-1), np.inf)
 
     def nearest(self, T: ArrayLike, q0: ArrayLike, tol: float = TOLERANCE, limits: bool = False) -> Nearest:
         """The posture for one pose that is nearest to given joint values.
 
-        Distances are Euclidean over angle differences modulo 2 pi (radians) and slides (metres). In a family the free
-        angles are chosen to come as near to q0 as possible.
+        Distances are Euclidean over angle differences (radians) and slides (metres). In a family the free angles are
+        chosen to come as near to q0 as possible. Without limits, angles count modulo 2 pi; with them, a turn is a
+        distance like any other, and the posture is in the turn nearest to q0 that the limits allow.
 
         Parameters
         ----------
@@ -223,14 +264,18 @@ class InverseModel(ABC):
         """
         target = np.asarray(T, dtype=float)[None]
         q0 = np.asarray(q0, dtype=float)
-        batch = self.solve_batch(target, q0, tol, limits)
+        near = self._near(q0, 1)
+        batch = self._within_limits(self._poses(target), near, tol) if limits else self.solve_batch(target, q0, tol)
         if not batch.valid.any():
             none = batch[0]
             return Nearest(None, np.inf, "", none.status, none.reason, "")
-        _, distance, branch = self._closest(batch, q0)
+        if limits:
+            batch = replace(batch, q=nearest_turn(self, batch.q, q0))
+        _, distance, branch = self._closest(batch, q0, limits)
         free = self._free_anchors(batch)
         if free:
-            batch, distance, branch = self._search_family(target, q0, free, tol, limits)
+            known = batch.q[batch.valid]
+            batch, distance, branch = self._search_family(target, q0, known, free, tol, limits)
         found = batch[0]
         row = int(batch.valid[0, :branch].sum())
         return Nearest(found.q[row], distance, found.labels[row], found.status, found.reason, found.free_by_row[row])
@@ -246,10 +291,11 @@ class InverseModel(ABC):
             model=self,
         )
 
-    def _closest(self, batch: Batch, q0: np.ndarray) -> tuple[int, float, int]:
+    def _closest(self, batch: Batch, q0: np.ndarray, limits: bool) -> tuple[int, float, int]:
         """Pose, distance and branch of the posture in the whole batch that is nearest to q0."""
         difference = batch.q - q0
-        difference[..., self.revolute] = wrap(difference[..., self.revolute])
+        if not limits:
+            difference[..., self.revolute] = wrap(difference[..., self.revolute])
         distances = np.where(batch.valid, np.sqrt((difference**2).sum(axis=-1)), np.inf)
         pose, branch = np.unravel_index(distances.argmin(), distances.shape)
         return int(pose), float(distances[pose, branch]), int(branch)
@@ -259,33 +305,49 @@ class InverseModel(ABC):
         return sorted({j for flag, joints in self.anchors.items() if flags & flag for j in joints})
 
     def _search_family(
-        self, target: np.ndarray, q0: np.ndarray, free: list[int], tol: float, limits: bool
+        self, target: np.ndarray, q0: np.ndarray, known: np.ndarray, free: list[int], tol: float, limits: bool
     ) -> tuple[Batch, float, int]:
-        """Compass search over the free joints for the member of a family that is nearest to q0."""
+        """Compass search over the free joints for the member of a family that is nearest to q0; with limits, from known ones."""
+
+        def solved(anchors: np.ndarray) -> Batch:
+            # The aligned joints of each member are still drawn towards q0 itself.
+            targets = np.repeat(target, len(anchors), axis=0)
+            if not limits:
+                return self.solve_batch(targets, anchors, tol)
+            batch = self.members(self._poses(targets), anchors.T, tol)
+            inside = self._settle(batch, q0) <= SLACK
+            return replace(batch, q=nearest_turn(self, batch.q, q0), valid=inside)
 
         def closest(anchors: np.ndarray) -> tuple[float, np.ndarray, int]:
             anchors = clipped(self, anchors) if limits else anchors
-            # The aligned joints of each member are still drawn towards q0 itself.
-            batch = self.solve_batch(np.repeat(target, len(anchors), axis=0), anchors, tol, limits)
-            pose, distance, branch = self._closest(batch, q0)
+            pose, distance, branch = self._closest(solved(anchors), q0, limits)
             return distance, anchors[pose], branch
 
         scan = np.linspace(-np.pi, np.pi, 24 if len(free) > 1 else 120, endpoint=False)
-        start = np.repeat(q0[None], len(scan) ** min(len(free), 2) + 1, axis=0)
-        start[1:, free[:2]] += list(product(scan, repeat=min(len(free), 2)))
+        if limits:
+            places = np.concatenate([known[:, free], grid_of(self, tuple(free))])
+            start = np.repeat(q0[None], len(places) + 1, axis=0)
+            start[1:, free] = places
+        else:
+            start = np.repeat(q0[None], len(scan) ** min(len(free), 2) + 1, axis=0)
+            start[1:, free[:2]] += list(product(scan, repeat=min(len(free), 2)))
         distance, best, branch = closest(start)
         step = scan[1] - scan[0]
-        while step > 1e-11:
+        turned, ways = np.random.default_rng(0), np.eye(len(free))
+        for _ in range(_MOST_STEPS):
             around = np.repeat(best[None], 2 * len(free), axis=0)
-            for k, joint in enumerate(free):
-                around[2 * k, joint] += step
-                around[2 * k + 1, joint] -= step
+            around[::2, free] += step * ways
+            around[1::2, free] -= step * ways
             closer, candidate, its_branch = closest(around)
             if closer < distance:
                 distance, best, branch = closer, candidate, its_branch
             else:
                 step /= 2
-        return self.solve_batch(target, best, tol, limits), distance, branch
+            if step <= 1e-11:
+                break
+            if limits and len(free) > 1:  # along a limit that is aslant to the joints, other ways lead on
+                ways = np.linalg.qr(turned.normal(size=ways.shape))[0]
+        return solved(best[None]), distance, branch
 
     def _poses(self, T: ArrayLike) -> np.ndarray:
         T = np.asarray(T, dtype=float)

@@ -57,8 +57,8 @@ class Nearest:
     q : (n,) array, or None
         Radians or metres.
     distance : float
-        Euclidean norm of the angle differences modulo 2 pi (radians) and of the slides (metres); infinity when there
-        is no posture.
+        Euclidean norm of the angle differences (radians; modulo 2 pi unless limits were asked for) and of the slides
+        (metres); infinity when there is no posture.
     label, status, reason, free
         As in `Solutions`, for this posture.
     """
