@@ -126,7 +126,7 @@ class ArmGeometry:
             outside[nearer, columns],
             np.where(arm.beyond > arm.short, Failure.BEYOND, Failure.SHORT)[nearer, columns],
         )
-        inside = ~branches.valid[0]
+        inside = ~branches.valid[0] & (branches.inside >= excess)  # of two conditions the one that is missed by more
         excess = np.where(inside, branches.inside, excess)
         failure = np.where(inside, Failure.INSIDE, failure)
         solved = valid.any(axis=(0, 1))

@@ -21,6 +21,7 @@ from .families import Rows, free_joints, grid_of, member, search
 from .forward import Chain
 from .gauge import canonical
 from .limits import SLACK, clipped, every_turn, nearest_turn, outside, slide_lines
+from .rigid import rigid
 from .solutions import Batch, Nearest, Solutions
 from .status import Failure, Flag
 from .tables import DHTable
@@ -28,7 +29,6 @@ from .tables import DHTable
 TOLERANCE = 1e-9
 """Metres (radians) by which a pose may miss the workspace and count as on it."""
 
-_RIGID = 1e-5  # how far a transform may be from rigid: poses rounded to six decimals pass
 _MOST_STEPS = 1000  # of the search for the nearest member of a family
 _BLOCK = 1024  # poses treated at a time, so that the intermediate arrays stay in the cache
 
@@ -186,7 +186,8 @@ class InverseModel(ABC):
         Raises
         ------
         ValueError
-            For wrong shapes, numbers that are not finite, transforms that are not rigid, and for ``limits=True`` on a
+            For wrong shapes, numbers that are not finite, transforms that are not rigid (rounded to four decimals, they
+            are read as the nearest rigid ones, with a `RoundedInput` warning), and for ``limits=True`` on a
             robot without joint limits, or whose limits allow more postures in all than memory should hold.
         """
         poses = self._poses(T)
@@ -357,9 +358,7 @@ class InverseModel(ABC):
             return self.pose(T)
         if T.ndim != 3 or T.shape[1:] != (4, 4):
             raise ValueError(f"expected poses of shape (N, 4, 4), found {T.shape}")
-        if not _rigid(T):
-            raise ValueError("a pose must be a rigid transform with last row 0 0 0 1")
-        return T
+        return rigid(T)
 
     def _near(self, near: ArrayLike | None, poses: int) -> np.ndarray | None:
         if near is None:
@@ -384,14 +383,6 @@ class InverseModel(ABC):
         missing = wrap(batch.q[rows, i] - at_i + sign * (batch.q[rows, j] - at_j))
         batch.q[rows, i] = wrap(at_i + missing / 2)
         batch.q[rows, j] = wrap(at_j + sign * missing / 2)
-
-
-def _rigid(T: np.ndarray) -> bool:
-    """Whether all transforms (N, 4, 4) are rotations with translations, within _RIGID."""
-    s, n, a = np.moveaxis(T[:, :3, :3], 2, 0)
-    wrong = [(s * s).sum(1) - 1, (n * n).sum(1) - 1, (s * n).sum(1), *(np.cross(s, n) - a).T]
-    bottom = (T[:, 3] == (0.0, 0.0, 0.0, 1.0)).all()
-    return bool(bottom and np.abs(wrong).max(initial=0.0) < _RIGID)
 
 
 def translations(points: np.ndarray) -> np.ndarray:

@@ -70,7 +70,7 @@ class PenArm(InverseModel):
         else:
             q[2] = 0.0 if near is None else near[2]
             flags = branches.flags | Flag.FREE_PLANE
-        inside = ~branches.valid[0]
+        inside = ~branches.valid[0] & (branches.inside >= off.min(axis=0))
         reached = valid.any(axis=0)
         return Branches(
             q,

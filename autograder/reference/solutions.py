@@ -33,7 +33,8 @@ class Solutions:
     free_by_row : tuple of k str
         The same for each row: at a wrist singularity only some rows are families.
     excess : float
-        Metres (radians when the reason speaks of an angle) by which the pose is out of reach, else 0.
+        Metres (radians when the reason speaks of an angle) by which the pose misses the condition that the reason
+        names, else 0. It is no distance to the nearest pose that can be reached.
     """
 
     q: np.ndarray
@@ -85,7 +86,7 @@ class Batch:
     flags : (N, K) uint8 array
         `Flag` bits: what is special about a posture.
     excess : (N,) array
-        Metres or radians by which a pose is out of reach.
+        Metres or radians by which a pose misses the condition that `failure` names.
     failure : (N,) uint8 array
         `Failure`: which constraint the pose does not meet.
     model : InverseModel

@@ -255,7 +255,7 @@ class DHTable:
         shifted = [(row.a, row.alpha) for row in self.rows[1:]] + [(sp.S.Zero, sp.S.Zero)]
         rows = tuple(DHRow(row.sigma, a, alpha, row.d, row.theta) for row, (a, alpha) in zip(self.rows, shifted))
         base = self.base * trans_x(first.a) * rot_x(first.alpha)
-        return ClassicTable(rows, self.name, self.joints, sp.ImmutableMatrix(base), self.tool, self.values)
+        return ClassicTable(rows, self.name, self.joints, sp.ImmutableMatrix(base), self.tool, self.values, self.limits)
 
     @classmethod
     def from_classic(cls, rows: Iterable[Row], *, tool: sp.Matrix | None = None, **options: Any) -> DHTable:
@@ -300,6 +300,7 @@ class ClassicTable:
     base: sp.ImmutableMatrix
     tool: sp.ImmutableMatrix
     values: Mapping[str, float]
+    limits: tuple[tuple[float, float], ...] | None = None
 
     def to_modified(self) -> DHTable:
         """The same robot in modified DH."""
@@ -310,6 +311,7 @@ class ClassicTable:
             base=self.base,
             tool=self.tool,
             values=self.values,
+            limits=self.limits,
         )
 
 

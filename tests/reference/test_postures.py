@@ -405,3 +405,13 @@ def test_same_solution_sets_as_eaik(name):
         gaps = np.abs(np.angle(np.exp(1j * (ours[:, None] - theirs)))).max(axis=-1)
         assert gaps.shape == (len(ours), len(ours))
         assert gaps.min(axis=0).max() < 1e-6 and gaps.min(axis=1).max() < 1e-6
+
+
+def test_of_two_conditions_the_one_that_is_missed_by_more_is_told():
+    """High above axis 1 a PUMA's cylinder is missed by centimetres, its reach by metres."""
+    T = np.eye(4)
+    T[2, 3] = 50.0
+    answer = robots.PUMA.inverse(T)
+    assert "beyond the reach" in answer.reason and answer.excess == pytest.approx(50 - 0.06 - 0.86, abs=0.01)
+    T[2, 3] = 0.5
+    assert "inside the cylinder" in robots.PUMA.inverse(T).reason

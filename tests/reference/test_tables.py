@@ -230,3 +230,8 @@ def test_importing_the_solver_loads_numpy_and_sympy_only():
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
     assert "autograder" in loaded
     assert not {"scipy", "matplotlib", "pandas", "IPython", "pinocchio", "eaik"} & set(loaded)
+
+
+def test_joint_limits_survive_classic_and_back():
+    table = robots.planar_2r(limits=[(-1, 1), (0, 2)]).table
+    assert table.to_classic().to_modified().limits == ((-1, 1), (0, 2))
