@@ -228,6 +228,11 @@ class _Reader:
             raise Malformed("the answer is not in the wire format")
         return Record(tuple((_text(key), self.value(item, depth + 1)) for key, item in content))
 
+    def _set(self, content: object, depth: int) -> Value:
+        if not isinstance(content, list):
+            raise Malformed("the answer is not in the wire format")
+        return tuple(self.value(item, depth + 1) for item in content)
+
     def _function(self, content: object, depth: int) -> Function:
         return Function(_text(content))
 
@@ -251,6 +256,7 @@ _TAGGED = (
     "sym",
     "call",
     "dict",
+    "set",
     "function",
     "large",
     "unknown",

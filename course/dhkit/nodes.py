@@ -52,10 +52,15 @@ def alone(node: object) -> object:
     """What stands alone in lists or dictionaries, however many are around it; any other node as it is."""
     while True:
         match node:
-            case [only] | {"dict": [[_, only]]}:
+            case [only] | {"set": [only]} | {"dict": [[_, only]]}:
                 node = only
             case _:
                 return node
+
+
+def listed(node: object) -> object:
+    """A set as a list, for a form that wants no order; any other node as it is."""
+    return node["set"] if isinstance(node, dict) and "set" in node else node
 
 
 def in_order(node: object, names: Sequence[str]) -> object:
@@ -92,6 +97,8 @@ def describe(node: object) -> str:
             if shape is None:
                 return "a list whose rows have different lengths"
             return "an empty list" if shape == (0,) else f"an array of shape {' x '.join(map(str, shape))}"
+        case {"set": _}:
+            return "a set, which has no order"
         case {"dict": []}:
             return "an empty dictionary"
         case {"dict": items}:

@@ -7,7 +7,8 @@ JSON                    meaning
 ======================  =====================================================
 number, true, false     a finite float, a small integer, a truth value
 string                  text
-array                   list, tuple, set, range, generator, NumPy array or SymPy matrix (nested)
+array                   list, tuple, range, generator, NumPy array or SymPy matrix (nested)
+``{"set": [...]}``      a set: as an array, in no order
 ``{"blank": true}``     not attempted: ``...`` or ``None``
 ``{"int": "123"}``      an integer beyond 2**53
 ``{"float": "nan"}``    ``nan``, ``inf`` or ``-inf``
@@ -138,7 +139,10 @@ class _Encoder:
         if isinstance(value, Mapping):
             self._expect(len(value))
             return {"dict": [[_text(str(key)), self.node(item, depth + 1)] for key, item in value.items()]}
-        if isinstance(value, (list, tuple, set, frozenset, range, deque, KeysView, ValuesView, ItemsView)):
+        if isinstance(value, (set, frozenset)):
+            self._expect(len(value))
+            return {"set": self._entries(value, depth)}
+        if isinstance(value, (list, tuple, range, deque, KeysView, ValuesView, ItemsView)):
             self._expect(len(value))
             return self._entries(value, depth)
         if isinstance(value, Iterator):
@@ -216,12 +220,14 @@ class _Encoder:
                 for part in (self.node(piece.expr, depth + 1), self._condition(piece.cond, depth + 1))
             ]
             return {"call": ["Piecewise", *parts]}
-        if isinstance(value, (sympy.Tuple, sympy.FiniteSet)):
+        if isinstance(value, sympy.Tuple):
             return self._entries(value, depth)
+        if isinstance(value, sympy.FiniteSet):
+            return {"set": self._entries(value, depth)}
         if isinstance(value, sympy.Dict):
             return self._again(dict(value.items()), depth)
         if value is sympy.S.EmptySet:
-            return []
+            return {"set": []}
         if isinstance(value, (sympy.Add, sympy.Mul, sympy.Pow)):
             return self._call(type(value).__name__.lower(), value, depth)
         if isinstance(value, sympy.exp):

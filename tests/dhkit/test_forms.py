@@ -265,6 +265,7 @@ def test_what_is_in_the_form_asked_for(table, answer):
         (NUMBER, t1, "the symbol t1 where only no symbol (numbers) may appear"),
         (NUMBER, float("nan"), "the value nan"),
         (VECTOR, ["0.707", "1.028"], 'the text "0.707": write 0.707 without quotation marks'),
+        (VECTOR, {t1, 1}, "a set, which has no order"),
         (VECTOR, [t1, "t1"], 'the text "t1": write t1 without quotation marks'),
         (VECTOR, [t1, float("inf")], "the value inf"),
         (VECTOR, [t1, complex(0, float("nan"))], "the value nan"),

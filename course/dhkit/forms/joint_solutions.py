@@ -36,7 +36,7 @@ class JointSolutions(Fields, frozen=True, kw_only=True):
             raise ValueError("joints: none is named")
 
     def arranged(self, node: object) -> object:
-        node = nodes.rows_in_order(node, self.joints)
+        node = nodes.rows_in_order(nodes.listed(node), self.joints)
         shape, count = nodes.array_shape(node), len(self.joints)
         if shape == (count, 1) != (1, 1):
             return [list(nodes.entries(node))]

@@ -20,6 +20,9 @@ class PointCloud(Fields, frozen=True, kw_only=True):
 
     shape: tuple[Size]
 
+    def arranged(self, node: object) -> object:
+        return nodes.listed(node)
+
     def misfit(self, node: object) -> str | None:
         if isinstance(node, dict) and "large" in node:
             return f"{nodes.describe(node)}; {MAX_POINTS} points are enough"

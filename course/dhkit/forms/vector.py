@@ -31,7 +31,7 @@ class Vector(Symbolic, frozen=True, kw_only=True):
             raise ValueError(f"names: {len(self.names)} for {self.shape[0]} entries")
 
     def arranged(self, node: object) -> object:
-        node = nodes.in_order(node, self.names)
+        node = nodes.in_order(nodes.listed(node) if self.unordered else node, self.names)
         (count,) = self.shape
         flat = nodes.array_shape(node) in ((count, 1), (1, count))
         node = list(nodes.entries(node)) if flat else node
