@@ -95,8 +95,9 @@ def test_the_scara_in_other_frames(rows, note, words):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("question", DATA, ids=ids(DATA))
+@pytest.mark.parametrize("question", [q for q in DATA if q.form.kind != "number"], ids=lambda q: q.id)
 def test_two_mistakes_at_once_are_named(question):
+    """But for single numbers: there two mistakes would match by chance."""
     for first, second in permutations(question.mistakes, 2):
         try:
             answer = mistaken(question, first.ways[0], second.ways[0])
