@@ -9,6 +9,8 @@ from autograder.grading import release
 from autograder.sealing import seal_exercise
 from dhkit.home.envelopes import SUFFIX, read
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(autouse=True)
 def cheap(monkeypatch):

@@ -15,6 +15,8 @@ from autograder.grading.course import open_course
 from autograder.grading.errors import CourseError
 from autograder.grading.returning import return_canvas, return_moodle
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def graded(without_kernels, small, empty_course, released, tmp_path_factory):

@@ -9,6 +9,8 @@ from answers import STUDENT, verdict
 from autograder.judge.probing import MOST_ARGUMENTS, MOST_RETURNED
 from autograder.questions import exercises, find
 
+pytestmark = pytest.mark.slow
+
 FUNCTIONS = [q for qs in exercises().values() for q in qs if q.form.kind == "function"]
 
 

@@ -19,6 +19,8 @@ from autograder.grading.course import open_course
 from autograder.grading.errors import CourseError
 from autograder.grading.results import without_notebook
 
+pytestmark = pytest.mark.slow
+
 
 def student(downloads, name, content, file="scara.ipynb", **more):
     return downloads.Upload(name, {file: content}, "collected", wanted=content, **more)
