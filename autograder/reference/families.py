@@ -25,6 +25,7 @@ _AROUND = Flag.FREE_FIRST | Flag.FREE_PLANE | Flag.FREE_CHAIN
 _GRID = {1: 181, 2: 31}  # values of each free joint
 _SCATTERED = 4096  # values of three and more free joints together
 _VALLEYS = 6  # parts of the grid whose lowest points are followed
+_MOST_STEPS = 200  # of a compass search
 _STEEPEST = 300.0  # of how far limits are missed, in radians per radian of a free joint
 _AT_ONCE = 2**15  # postures treated at a time
 
@@ -129,7 +130,7 @@ def _descend(
     row = np.repeat(np.arange(len(starts)), valleys)
     at, miss = starts.reshape(-1, dimensions).copy(), misses.ravel().copy()
     step = np.full(len(at), (upper - lower).max() / _GRID.get(dimensions, 8))
-    while True:
+    for _ in range(_MOST_STEPS):
         solved = np.zeros(len(starts), dtype=bool)
         solved[row[miss == 0]] = True
         hopeless = miss > (_STEEPEST * step) ** 2  # no zero is left within a step

@@ -20,7 +20,7 @@ from dhkit.geometry import wrap
 from .families import Rows, free_joints, grid_of, member, search
 from .forward import Chain
 from .gauge import canonical
-from .limits import SLACK, clipped, every_turn, nearest_turn, outside, slide_lines
+from .limits import SLACK, clipped, every_turn, nearest_turn, outside, slack, slide_lines
 from .rigid import rigid
 from .solutions import Batch, Nearest, Solutions
 from .status import Failure, Flag
@@ -232,7 +232,7 @@ class InverseModel(ABC):
             found = replace(rows, near=search(self, rows, free, tol))
             batch.q[pose, branch], batch.flags[pose, branch], misses = member(self, found, tol)
             miss[pose, branch] = misses.max(axis=1)
-        valid = miss <= SLACK
+        valid = miss <= slack(batch.flags)
         lost = reached & ~valid.any(axis=1)
         return replace(
             batch,
@@ -316,7 +316,7 @@ class InverseModel(ABC):
             if not limits:
                 return self.solve_batch(targets, anchors, tol)
             batch = self.members(self._poses(targets), anchors.T, tol)
-            inside = self._settle(batch, q0) <= SLACK
+            inside = self._settle(batch, q0) <= slack(batch.flags)
             return replace(batch, q=nearest_turn(self, batch.q, q0), valid=inside)
 
         def closest(anchors: np.ndarray) -> tuple[float, np.ndarray, int]:

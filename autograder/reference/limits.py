@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 SLACK = 1e-9
 """Radians (metres) by which a posture may pass a joint limit."""
 
+_BLURRED = 1e-7  # the same on a limit of the workspace, where an angle errs by the root of what a length errs
 _TURN = 2 * np.pi
 _MOST_TURNS = 3  # full turns listed to either side of a joint with wide limits
 _MOST_NUMBERS = 2**27  # joint values of one answer: 1 GiB
@@ -42,6 +43,11 @@ def outside(model: InverseModel, q: np.ndarray) -> np.ndarray:
     lower, upper = bounds(model)
     q = q + _TURN * _turning(model) * np.round(((lower + upper) / 2 - q) / _TURN)
     return np.maximum(lower - q, q - upper)
+
+
+def slack(flags: np.ndarray) -> np.ndarray:
+    """Radians (metres) by which postures with such flags may pass a joint limit."""
+    return np.where(flags & Flag.LIMIT, _BLURRED, SLACK)
 
 
 def nearest_turn(model: InverseModel, q: np.ndarray, near: np.ndarray) -> np.ndarray:
@@ -127,4 +133,8 @@ def _turns(model: InverseModel, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """First and last number of full turns that bring each joint within its limits; first > last where none does."""
     lower, upper = bounds(model)
     turning = _turning(model)
-    return turning * np.ceil((lower - SLACK - q) / _TURN), turning * np.floor((upper + SLACK - q) / _TURN)
+    first, last = np.ceil((lower - SLACK - q) / _TURN), np.floor((upper + SLACK - q) / _TURN)
+    blurred = last < first
+    first = np.where(blurred, np.ceil((lower - _BLURRED - q) / _TURN), first)
+    last = np.where(blurred, np.floor((upper + _BLURRED - q) / _TURN), last)
+    return turning * first, turning * last

@@ -181,3 +181,24 @@ def test_endless_joints_have_infinite_limits():
     answer = robot.inverse([0.3, 0.5], limits=True)
     assert (answer.q[:, 1] >= 0).all() and len(answer) == 2 * 7 * 7
     assert robot.nearest(robot.forward([40.0, 30.0]), [40.0, 30.0], limits=True).distance < 1e-9
+
+
+@pytest.mark.parametrize("lengths", [(0.4, 0.3, 0.25, 0.15), (0.3, 0.3, 0.3, 0.3), (0.5, 0.3), (0.5, 0.3, 0.2)])
+@pytest.mark.parametrize("lower", [0, -1])
+def test_a_posture_with_joints_at_their_limits_is_found(lengths, lower):
+    """Straight arms too, whose angles are known to the root of what lengths are known to."""
+    n, rng = len(lengths), np.random.default_rng(1)
+    limits = [(lower, lower + 1)] * n
+    robot = robots.planar(lengths, limits=limits)
+    q = rng.uniform(lower, lower + 1, (80, n))
+    q = np.where(rng.random((80, n)) < 0.6, rng.choice([lower, lower + 1], (80, n)), q)
+    q[:20, 1:] = 0
+    T = robot.forward(q)
+    batch = robot.inverse_batch(T, limits=True)
+    found = batch.q[batch.valid]
+    assert batch.valid.any(axis=1).all() and (np.abs(found - lower - 0.5) <= 0.5 + 1e-7).all()
+    np.testing.assert_allclose(
+        robot.forward(batch.q[batch.valid])[:, :2, 3], np.repeat(T, batch.count, 0)[:, :2, 3], atol=1e-9
+    )
+    for i in (0, 5, 30):
+        assert robot.nearest(T[i], q[i], limits=True).distance < 1e-6
