@@ -10,7 +10,7 @@ import sympy as sp
 from autograder.reference import errata
 from autograder.reference.errata.proof import agree, assembled
 
-pytestmark = pytest.mark.filterwarnings("error")
+pytestmark = [pytest.mark.filterwarnings("error"), pytest.mark.slow]
 ALL = errata.ERRORS + errata.AMBIGUITIES
 
 
