@@ -124,9 +124,7 @@ def _descend(
     """Compass search from starts (R, S, m) with their misses (R, S); returns the best joint values (R, n)."""
     lower, upper = _ranges(model, free)
     dimensions, valleys = len(free), starts.shape[1]
-    ways = np.array([way for way in product((-1, 0, 1), repeat=dimensions) if any(way)])
-    if dimensions > 2:
-        ways = np.concatenate([np.eye(dimensions), -np.eye(dimensions)])
+    ways, turned = np.eye(dimensions), np.random.default_rng(0)
     row = np.repeat(np.arange(len(starts)), valleys)
     at, miss = starts.reshape(-1, dimensions).copy(), misses.ravel().copy()
     step = np.full(len(at), (upper - lower).max() / _GRID.get(dimensions, 8))
@@ -137,10 +135,13 @@ def _descend(
         going = np.flatnonzero((step > 1e-12) & ~hopeless & ~solved[row])
         if not len(going):
             break
-        around = np.clip(at[going, None] + step[going, None, None] * ways, lower, upper)
-        tried = np.repeat(rows.near[row[going]], len(ways), axis=0)
+        if dimensions > 1:  # valleys run aslant: other ways each time, and longer steps while they lead down
+            ways = np.linalg.qr(turned.normal(size=ways.shape))[0]
+        both = np.concatenate([ways, -ways])
+        around = np.clip(at[going, None] + step[going, None, None] * both, lower, upper)
+        tried = np.repeat(rows.near[row[going]], len(both), axis=0)
         tried[:, free] = around.reshape(-1, dimensions)
-        theirs = _miss(model, rows, np.repeat(row[going], len(ways)), tried, dimensions == 1, tol).reshape(
+        theirs = _miss(model, rows, np.repeat(row[going], len(both)), tried, dimensions == 1, tol).reshape(
             len(going), -1
         )
         way = theirs.argmin(axis=1)
@@ -148,6 +149,7 @@ def _descend(
         lower_now = lowest < miss[going]
         moved = going[lower_now]
         at[moved], miss[moved] = around[lower_now, way[lower_now]], lowest[lower_now]
+        step[moved] *= 1 if dimensions == 1 else 1.5
         step[going[~lower_now]] /= 2
     best = miss.reshape(-1, valleys).argmin(axis=1)
     found = rows.near.copy()

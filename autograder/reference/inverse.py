@@ -310,13 +310,15 @@ class InverseModel(ABC):
     ) -> tuple[Batch, float, int]:
         """Compass search over the free joints for the member of a family that is nearest to q0; with limits, from known ones."""
 
+        allowed = max(SLACK, outside(self, known).max(axis=-1).min()) if limits else SLACK
+
         def solved(anchors: np.ndarray) -> Batch:
             # The aligned joints of each member are still drawn towards q0 itself.
             targets = np.repeat(target, len(anchors), axis=0)
             if not limits:
                 return self.solve_batch(targets, anchors, tol)
             batch = self.members(self._poses(targets), anchors.T, tol)
-            inside = self._settle(batch, q0) <= slack(batch.flags)
+            inside = self._settle(batch, q0) <= allowed
             return replace(batch, q=nearest_turn(self, batch.q, q0), valid=inside)
 
         def closest(anchors: np.ndarray) -> tuple[float, np.ndarray, int]:

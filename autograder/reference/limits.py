@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 SLACK = 1e-9
 """Radians (metres) by which a posture may pass a joint limit."""
 
-_BLURRED = 1e-7  # the same on a limit of the workspace, where an angle errs by the root of what a length errs
+_BLURRED = 1e-7  # the same where links may lie straight: there an angle errs by the root of what a length errs
 _TURN = 2 * np.pi
 _MOST_TURNS = 3  # full turns listed to either side of a joint with wide limits
 _MOST_NUMBERS = 2**27  # joint values of one answer: 1 GiB
@@ -47,7 +47,7 @@ def outside(model: InverseModel, q: np.ndarray) -> np.ndarray:
 
 def slack(flags: np.ndarray) -> np.ndarray:
     """Radians (metres) by which postures with such flags may pass a joint limit."""
-    return np.where(flags & Flag.LIMIT, _BLURRED, SLACK)
+    return np.where(flags & (Flag.LIMIT | Flag.FREE_CHAIN), _BLURRED, SLACK)
 
 
 def nearest_turn(model: InverseModel, q: np.ndarray, near: np.ndarray) -> np.ndarray:
