@@ -49,6 +49,7 @@ class PlanarArm(InverseModel):
         height = chain.fixed[1:n].sum() + tail[2, 3]
         plane = chain.base @ chain.row_matrix(0, 0.0)
         plane[:3, 3] += height * plane[:3, 2]
+        self._height = plane[2, 3]
         self._to_plane = np.linalg.inv(plane)
         self._up = np.sign(tail[2, 2])  # -1 for a tool that is held upside down
         self._tip = complex(tail[0, 3], tail[1, 3])
@@ -75,6 +76,7 @@ class PlanarArm(InverseModel):
         if task.shape[1] != (2 if self.joints == 2 else 3):
             raise ValueError(f"expected the coordinates {self.task}, found {task.shape[1]} numbers")
         poses = translations(task[:, :2])
+        poses[:, 2, 3] = self._height
         if self.joints > 2:
             poses[:, :3, :3] = rotation("z", task[:, 2]) @ np.diag([1.0, self._up, self._up])
         return poses

@@ -227,3 +227,12 @@ def test_a_class_that_is_named_refuses_what_does_not_fit():
                       joints=sp.symbols("u v"), tool=sp.Matrix(motion("x", 0.0, 0.4)))  # fmt: skip
     with pytest.raises(ValueError, match="row 2 is moved by -1 q1 and 1 q2, not by q2 or -q2 alone"):
         Robot(coupled, PlanarArm).inverse([0.5, 0.2])
+
+
+def test_task_coordinates_of_a_planar_arm_lie_in_its_plane():
+    rows = [(0, 0, 0, 0.3, 0), (0, 0.5, PI, 0.1, 0), (0, -0.4, 0, 0, 0), (0, 0.3, PI, 0.05, 0)]
+    answer = Robot(table(rows)).inverse([0.6, 0.3, 0.4])
+    for q in answer.q:
+        T = pose(rows, q)
+        np.testing.assert_allclose([*T[:2, 3], np.arctan2(T[1, 0], T[0, 0])], [0.6, 0.3, 0.4], atol=1e-12)
+    assert len(answer)
