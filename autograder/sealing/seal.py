@@ -132,7 +132,12 @@ def seal_exercise(
 
 def decisions(questions: Iterable[Question]) -> list[Decision]:
     """Which of the questions have a verdict at home, without sealing them."""
-    return [_decide(question, _sight(question), [_seen(question, 0)]) for question in questions]
+    return [_decide(question, _sight(question), _rights(question, variants.SETS)) for question in questions]
+
+
+def _rights(question: Question, sets: int) -> list[Look | None]:
+    """The right answer for every set of numbers; once where it is the same for everybody."""
+    return [_seen(question, which) for which in range(sets if question.personal else 1)]
 
 
 def _seal_question(
@@ -140,8 +145,7 @@ def _seal_question(
 ) -> tuple[SealedQuestion, Decision]:
     sight = _sight(question)
     numbers_sets = range(sets if question.personal else 1)
-    rights = [_seen(question, which) for which in numbers_sets]
-    decision = _decide(question, sight, rights)
+    decision = _decide(question, sight, _rights(question, sets))
     if decision.why_not:
         return SealedQuestion(why_not=decision.why_not), decision
     calls = [_calls(question, which) for which in numbers_sets]
