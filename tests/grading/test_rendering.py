@@ -82,9 +82,9 @@ def test_a_hostile_page_stays_within_its_budget(cells, monkeypatch, spent):
     asked = []
     render = Renderer.render
 
-    def watched(self, kind, text, budget, attachments=None):
+    def watched(self, kind, text, budget, pictures=()):
         before = budget.seconds
-        html = render(self, kind, text, budget, attachments)
+        html = render(self, kind, text, budget, pictures)
         asked.append(before - budget.seconds)
         return html
 

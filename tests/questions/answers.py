@@ -156,7 +156,7 @@ def still_right(question, reference, changed):
     """Whether a changed entry leaves the meaning as it was, found without the judge's own algebra."""
     kind, form = question.form.kind, question.form
     values = {name: float(value[0]) for name, value in question.samples.items()}
-    if kind in ("direction", "orientation", "dh_table"):
+    if kind in ("direction", "orientation", "dh_table", "classic_table"):
         joints = getattr(form, "joints", ())
         names = list({*form.symbols, *joints})
         rng = np.random.default_rng(0)
@@ -175,10 +175,9 @@ def still_right(question, reference, changed):
         axes = form.axes.upper() if form.frames == "moving" else form.axes.lower()
         turns = [Rotation.from_euler(axes, each.ravel()) for each in (first, second)]
         return (turns[0].inv() * turns[1]).magnitude() < 1e-7
-    if kind == "dh_table":
+    if kind in ("dh_table", "classic_table"):
         return np.allclose(hand(first), hand(second), atol=1e-9)
-    angle = (kind == "expression" and question.angles) or (kind == "vector" and question.angles)
-    if angle:
+    if question.angles and kind in ("expression", "vector", "matrix"):
         gap = sympy.Matrix(np.ravel(np.array(changed - reference)).tolist()).subs(values)
         return all(
             abs(np.remainder(float(each) + np.pi, 2 * np.pi) - np.pi) < 1e-9 for each in gap if not each.free_symbols
@@ -187,10 +186,11 @@ def still_right(question, reference, changed):
 
 
 def hand(rows):
-    """The product of a numeric DHm table, from four elementary motions each."""
+    """The product of a numeric DHm table, or of rows [a, alpha, d, theta] of a classic one, from elementary motions."""
     result = np.eye(4)
-    for _, a, alpha, d, theta in rows:
-        for axis, shift, turn in ((0, a, alpha), (2, d, theta)):
+    for *sigma, a, alpha, d, theta in rows:
+        along_x, along_z = (0, a, alpha), (2, d, theta)
+        for axis, shift, turn in (along_x, along_z) if sigma else (along_z, along_x):
             step = np.eye(4)
             step[axis, 3] = shift
             step[:3, :3] = Rotation.from_rotvec(turn * np.eye(3)[axis]).as_matrix()
