@@ -31,6 +31,12 @@ ids = lambda questions: [question.id for question in questions]  # noqa: E731
 t1, t2, q = sympy.symbols("t1 t2 q")
 
 
+@pytest.fixture(autouse=True)
+def elsewhere(tmp_path, monkeypatch):
+    """Away from the sealed verdicts, which cost time and are tried in ``tests/sealing``."""
+    monkeypatch.chdir(tmp_path)
+
+
 class Odd:
     """An object that fails whatever it is asked."""
 
