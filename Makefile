@@ -23,7 +23,7 @@ grade: setup
 
 # All tests, and every notebook executed; a warning in a notebook is an error.
 test: setup
-	$(BIN)/pytest -n auto --dist loadgroup
+	$(BIN)/pytest -n auto --dist loadfile --no-loadscope-reorder
 	PYTHONWARNINGS=error::RuntimeWarning,error::UserWarning,error::SyntaxWarning $(BIN)/pytest -n auto --nbmake course solutions exercises
 
 # For every change: lint, types and the fast tests, those not marked slow, sandbox or notebook.

@@ -175,7 +175,6 @@ def newcomer(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("newcomer: a question")
 def test_a_question(newcomer):
     newcomer.follow(recipe(QUESTION))
     assert len(newcomer.typed) <= 3 and sum(newcomer.typed.values()) <= 30
@@ -187,7 +186,6 @@ def test_a_question(newcomer):
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("newcomer: a manual")
 def test_a_manual_that_forgets_to_say_something_is_noticed(newcomer):
     blocks = [block for block in recipe(QUESTION) if block.language != "console"]
     newcomer.follow([replace(block, text=block.text.replace(" (1 point)", "")) for block in blocks])
@@ -196,7 +194,6 @@ def test_a_manual_that_forgets_to_say_something_is_noticed(newcomer):
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("newcomer: a kind of answer")
 def test_a_kind_of_answer(newcomer):
     newcomer.follow(recipe(KIND))
     code = "turn = [-cos((t1 + t2) / 2), 0, 0, -sin((t1 + t2) / 2)]"
@@ -205,7 +202,6 @@ def test_a_kind_of_answer(newcomer):
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("newcomer: a robot")
 def test_a_robot(newcomer):
     newcomer.follow(recipe(ROBOT))
     asked = (
@@ -219,7 +215,6 @@ def test_a_robot(newcomer):
 
 
 @pytest.mark.slow
-@pytest.mark.xdist_group("newcomer: an exercise")
 def test_an_exercise(newcomer):
     newcomer.follow(recipe(EXERCISE))
     assert newcomer.grade(Submission("velocities", "ada", "")) == {"ada": {"velocities.jacobian": "right"}}

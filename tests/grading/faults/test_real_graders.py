@@ -183,7 +183,6 @@ def is_alive(process):
     return False
 
 
-@pytest.mark.xdist_group("stopped at random moments")
 def test_stopped_at_random_moments(needs_sandbox, faults, small, course_copy, released, temporary, started):
     hand_in(small, course_copy, released, "A")
     events = Events(course_copy, temporary)
@@ -223,7 +222,6 @@ def test_stopped_at_random_moments(needs_sandbox, faults, small, course_copy, re
 # ---------------------------------------------------------------- beside each other
 
 
-@pytest.mark.xdist_group("graders beside each other")
 def test_graders_beside_each_other(needs_sandbox, faults, small, course_copy, released, started, capsys):
     """Ours and nbgrader's, of one exercise and of two, of a student with an older grade and of a new one."""
     (course_copy / "solutions/second").mkdir()

@@ -55,7 +55,6 @@ def test_the_class_is_graded(right):
     assert len(right.steps) < len(STEPS)
 
 
-@pytest.mark.xdist_group("killed at any step")
 @pytest.mark.parametrize("step", STEPS)
 def test_killed(faults, course, right, step, capsys):
     assert fault(faults, course, right, step, [SIGKILL]) == -SIGKILL
@@ -64,7 +63,6 @@ def test_killed(faults, course, right, step, capsys):
     assert f"{3 - len(found)} graded; {len(found)} unchanged" in capsys.readouterr().out
 
 
-@pytest.mark.xdist_group("told to stop at any step")
 @pytest.mark.parametrize("step", STEPS)
 def test_told_to_stop(faults, course, right, step, capfd):
     number = (SIGTERM, SIGHUP, SIGINT)[step % 3]
@@ -74,7 +72,6 @@ def test_told_to_stop(faults, course, right, step, capfd):
     assert ends_right(faults, course, right)
 
 
-@pytest.mark.xdist_group("told to stop at any step")
 @pytest.mark.parametrize("step", STEPS[::2])
 def test_told_to_stop_twice(faults, course, right, step, capfd):
     assert fault(faults, course, right, step, [SIGINT, SIGINT]) == 128 + SIGINT
@@ -82,7 +79,6 @@ def test_told_to_stop_twice(faults, course, right, step, capfd):
     assert ends_right(faults, course, right)
 
 
-@pytest.mark.xdist_group("told to stop at any step")
 @pytest.mark.parametrize("number", [SIGHUP, SIGINT])
 def test_a_signal_that_is_ignored_stays_ignored(faults, course, right, number, capfd):
     """As a lecturer wants it who typed ``nohup autograder grade``, or ``autograder grade &`` in a script."""
@@ -97,7 +93,6 @@ def test_a_signal_that_is_ignored_stays_ignored(faults, course, right, number, c
     assert faults.entries(course) == right.entries and faults.files_below(course) == right.files
 
 
-@pytest.mark.xdist_group("told to stop at any step")
 def test_a_second_signal_may_come_while_the_first_is_told(faults, course, right, monkeypatch, capfd):
     def said(*words, **options):
         print(*words, **options)
@@ -122,7 +117,6 @@ class Cleaned:
             pass
 
 
-@pytest.mark.xdist_group("told to stop at any step")
 def test_a_signal_that_comes_while_something_is_cleaned_up_is_no_lost_one(faults, course, right, monkeypatch, capfd):
     def judge(*evidence):
         Cleaned()
@@ -140,7 +134,6 @@ def test_a_signal_that_comes_while_something_is_cleaned_up_is_no_lost_one(faults
     assert ends_right(faults, course, right)
 
 
-@pytest.mark.xdist_group("full disk at any step")
 @pytest.mark.parametrize("step", STEPS)
 def test_the_disk_is_full(faults, course, right, step, capfd):
     if right.steps[step : step + 1] and right.steps[step].startswith(("after", "commit")):
