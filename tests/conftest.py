@@ -2,8 +2,10 @@
 
 import pytest
 
+LONG = {"test_newcomer.py", "test_steps.py"}
+
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """What starts kernels takes longest, so it comes first: no worker is left alone with it in the end."""
-    items.sort(key=lambda item: item.get_closest_marker("sandbox") is None)
+    """What takes longest comes first, kernels most of all: no worker is left alone with it in the end."""
+    items.sort(key=lambda item: item.path.name not in LONG and item.get_closest_marker("sandbox") is None)
