@@ -40,8 +40,8 @@ from dhkit.home.verdict import function_parts, kind_of
 from .plausible import ENOUGH, bits_of_parts, bits_of_results
 
 CALLS_A_CASE = 3
-POINTS_OF_A_TABLE = 4
-"""A chain is known by its hand in a few postures; frames at every point would make large envelopes."""
+POINTS_OF_A_TABLE = 2
+"""A chain is known by its hand in two postures; frames at every point would make large envelopes."""
 
 _SEED = 13
 _TO_TRY = "its answer could be found by trying"

@@ -113,7 +113,7 @@ def test_what_a_killed_grader_left_in_the_temporary_folder_goes_with_the_next_ru
     assert faults.grade(course) == 0
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     (tmp_path / "ag-run-left/work").mkdir(parents=True)
-    (tmp_path / "ag-run-left/work/answer.txt").write_text("mine")
+    (tmp_path / "ag-run-left" / "work" / "answer.txt").write_text("mine")
     assert faults.grade(course) == 0  # there is nothing to do
     assert not list(tmp_path.glob("ag-run-*"))
 
