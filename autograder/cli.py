@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import logging
 import os
 import signal
 import sys
@@ -86,6 +87,7 @@ def _stoppable() -> Iterator[None]:
     def stop(number: int, frame: object) -> None:
         for each in before:
             signal.signal(each, lambda number, frame: os._exit(128 + number))
+        logging.disable()  # libraries that the exception passes through report it as a fault of theirs
         raise Stopped(number)
 
     def again(unraisable: Any) -> None:
