@@ -8,6 +8,9 @@ from io import BytesIO
 
 import matplotlib.pyplot as plt
 from IPython.display import Image, display
+from matplotlib.transforms import Bbox
+
+from .drawing.view import Frame, held
 
 
 def explore(draw, **sliders: tuple[float, float, float]) -> None:
@@ -24,7 +27,8 @@ def explore(draw, **sliders: tuple[float, float, float]) -> None:
         Range and start of each value, in the unit that `draw` awaits.
     """
     start = {name: value for name, (_, _, value) in sliders.items()}
-    static = _png(draw, start)
+    camera = _Camera(draw)
+    static = camera.picture(start)
     try:
         import ipywidgets
     except ImportError:
@@ -41,7 +45,7 @@ def explore(draw, **sliders: tuple[float, float, float]) -> None:
     )
 
     def redraw(_change):
-        picture.value = _png(draw, {name: control.value for name, control in controls.items()})
+        picture.value = camera.picture({name: control.value for name, control in controls.items()})
 
     for control in controls.values():
         control.observe(redraw, names="value")
@@ -71,9 +75,21 @@ def step_of(low: float, high: float, start: float) -> float:
     return (high - low) / 100
 
 
-def _png(draw, values: dict[str, float]) -> bytes:
-    figure = draw(**values).figure
-    buffer = BytesIO()
-    figure.savefig(buffer, format="png", bbox_inches="tight", dpi=90)
-    plt.close(figure)
-    return buffer.getvalue()
+class _Camera:
+    """Pictures of a drawing at one scale and in one place: a frame that grows where it must, and never jumps back."""
+
+    def __init__(self, draw):
+        self._draw, self._frame, self._boxes = draw, Frame(), {}
+
+    def picture(self, values: dict[str, float]) -> bytes:
+        """The drawing for these values, as PNG."""
+        with held(self._frame):
+            figure = self._draw(**values).figure
+        self._frame.hold_planes(figure)
+        size = tuple(figure.get_size_inches())
+        box = figure.get_tightbbox().padded(0.1)
+        self._boxes[size] = Bbox.union([box, self._boxes.get(size, box)])
+        buffer = BytesIO()
+        figure.savefig(buffer, format="png", bbox_inches=self._boxes[size], dpi=90)
+        plt.close(figure)
+        return buffer.getvalue()

@@ -2,6 +2,7 @@
 
 import base64
 import sys
+from io import BytesIO
 
 import matplotlib
 
@@ -11,7 +12,7 @@ import matplotlib.pyplot as plt
 import pytest
 
 from dhkit import interactive
-from dhkit.drawing import draw_planar_arm
+from dhkit.drawing import draw_chain, draw_planar_arm, view
 
 PNG = b"\x89PNG"
 
@@ -75,3 +76,43 @@ def test_a_slider_reaches_its_ends_its_start_and_zero(low, high, start):
 
 def test_a_range_of_odd_numbers_has_a_hundred_steps():
     assert interactive.step_of(0, 1, 1 / 3) == pytest.approx(0.01)
+
+
+def planar(t1, t2):
+    return draw_planar_arm((0.5, 0.4), (t1, t2))
+
+
+def in_space(t1, t2):
+    return draw_chain([[0, 0, 0, 0.3, t1], [0, 0.5, 1.2, 0, t2], [0, 0.4, 0, 0, 0]], tool=True, frames=())
+
+
+@pytest.mark.parametrize("draw", [planar, in_space])
+def test_pictures_keep_scale_and_place_when_sliders_move(draw):
+    camera = interactive._Camera(draw)
+    turns = (0.3, -1.5, 3.0, 1.5)
+    for t1 in turns:
+        camera.picture({"t1": t1, "t2": 0.5})
+    seen = [camera.picture({"t1": t1, "t2": 0.5}) for t1 in (*turns, 0.3)]
+    assert seen[0] == seen[-1] != seen[1]
+    pictures = [plt.imread(BytesIO(png)) for png in seen]
+    assert len({picture.shape for picture in pictures}) == 1
+    assert not plt.get_fignums()
+
+
+def base(draw, camera, t1) -> list[float]:
+    """Where the base is in the picture, in pixels from its corner."""
+    with view.held(camera._frame):
+        ax = draw(t1, 0.5)
+    camera._frame.hold_planes(ax.figure)
+    at = view.to_pixels(ax, [(0, 0, 0)])[0] if draw is in_space else ax.transData.transform((0, 0))
+    plt.close("all")
+    return [round(float(coordinate), 6) for coordinate in at]
+
+
+@pytest.mark.parametrize("draw", [planar, in_space])
+def test_the_base_does_not_jump(draw):
+    camera = interactive._Camera(draw)
+    for t1 in (0.3, -1.5, 3.0):
+        camera.picture({"t1": t1, "t2": 0.5})
+    assert base(draw, camera, 0.3) == base(draw, camera, -1.5) == base(draw, camera, 3.0)
+    assert base(draw, interactive._Camera(draw), 0.3) != base(draw, interactive._Camera(draw), -1.5)

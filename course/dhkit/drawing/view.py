@@ -2,9 +2,67 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
 import matplotlib.pyplot as plt
 import numpy as np
 from mpl_toolkits.mplot3d import Axes3D, proj3d
+
+
+@dataclass
+class Frame:
+    """What a row of pictures has shown so far: the next one keeps its scale and place, and grows where it must.
+
+    Attributes
+    ----------
+    points : dict from (elevation, azimuth) to ndarray, shape (n, 3), in metres
+        Outermost points in space.
+    size : tuple of float
+        Greatest width and height that a drawing in space has asked for, in inches.
+    limits : dict from places of plane axes to ndarray, shape (2, 2)
+        Outermost limits (min, max) of x and of y.
+    """
+
+    points: dict[tuple, np.ndarray] = field(default_factory=dict)
+    size: tuple[float, float] = (0.0, 0.0)
+    limits: dict[tuple, np.ndarray] = field(default_factory=dict)
+
+    def hold_space(self, ax, points, width, height):
+        """`points` with those shown before from the same side, and the greater size."""
+        side = (ax.elev, ax.azim)
+        points = np.vstack([points, self.points.get(side, points[:0])])
+        heights = points @ np.vstack([np.eye(3), view_axes(ax)]).T
+        self.points[side] = points[np.unique([heights.argmin(axis=0), heights.argmax(axis=0)])]
+        self.size = max(width, self.size[0]), max(height, self.size[1])
+        return points, *self.size
+
+    def hold_planes(self, figure):
+        """Widen the limits of the plane axes of a finished figure to those that were shown before."""
+        planes = [ax for ax in figure.axes if not isinstance(ax, Axes3D)]
+        for place, ax in enumerate(planes):
+            here = np.array([ax.get_xlim(), ax.get_ylim()])
+            if (np.diff(here) < 0).any():
+                continue  # a picture, or an axis that runs backwards
+            key = (len(planes), place)
+            before = self.limits.get(key, here)
+            held = np.column_stack([np.minimum(here, before)[:, 0], np.maximum(here, before)[:, 1]])
+            self.limits[key] = held
+            ax.set(xlim=held[0], ylim=held[1])
+
+
+_frame: Frame | None = None
+
+
+@contextmanager
+def held(frame: Frame):
+    """Draw within a frame: see `Frame`."""
+    global _frame
+    before, _frame = _frame, frame
+    try:
+        yield
+    finally:
+        _frame = before
 
 
 def view_axes(ax) -> np.ndarray:
@@ -102,6 +160,8 @@ def fit_3d(ax, points, own, width=6.2, height=5.0, pad=0.3):
         Greatest size of the figure and the room at its edges, in inches.
     """
     points = np.asarray(points, float)
+    if own and _frame is not None:
+        points, width, height = _frame.hold_space(ax, points, width, height)
     low, high = points.min(axis=0), points.max(axis=0)
     half = np.maximum(high - low, 0.2 * (high - low).max()) / 2
     _set_limits(ax, (low + high) / 2, half)

@@ -10,7 +10,7 @@ from ..drawing.chains import chain_frames, draw_chain
 from ..drawing.postures import draw_posture_family, draw_posture_gallery, draw_shoulder_top
 from ..drawing.style import DASHED, INK, SOFT
 from ..geometry import rotation_angle_between
-from .own_result import called, card, entries, numbers, own_result
+from .own_result import called, card, entries, numbers, numbers_in_rows, own_result
 
 MOST = 16  # postures drawn
 
@@ -31,14 +31,7 @@ def show_all_postures(solutions, table, target):
     matplotlib Axes (3D)
     """
     width = table.__code__.co_argcount - len(table.__defaults__ or ())
-    joints = table.__code__.co_varnames[:width]
-    solutions = solutions.tolist() if hasattr(solutions, "tolist") else solutions
-    if isinstance(solutions, dict) or (
-        len(solutions) == len(entries(solutions)) == width and not isinstance(solutions[0], dict)
-    ):
-        solutions = [solutions]
-    solutions = [[row[name] for name in joints] if isinstance(row, dict) else row for row in solutions]
-    rows = numbers(solutions, "solutions", (None, width), {}) if entries(solutions) else []
+    rows = numbers_in_rows(solutions, "solutions", width)
     if not len(rows):
         return card("no solution given")
     target = np.array(target, dtype=float)
@@ -105,8 +98,7 @@ def show_repaired_row(answer, rows, values):
     -------
     matplotlib Axes (3D)
     """
-    answer = list(answer.values()) if isinstance(answer, dict) else entries(answer)
-    place, *row = numbers(answer, "row", (6,), values)
+    place, *row = numbers(entries(answer), "row", (6,), values)
     if place not in range(1, len(rows) + 1):
         raise ValueError(f"row: expected a number from 1 to {len(rows)}, found {place:g}")
     table = [numbers(each, "table", (5,), values) for each in rows]

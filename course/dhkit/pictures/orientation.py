@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import sympy
 
 from ..drawing.gimbal import draw_gimbal
 from ..drawing.orientation import turn_in_steps
-from .own_result import called, entries, numbers, own_result
+from .own_result import called, numbers, numbers_in_rows, own_result
 
 JOINT_NAMES = (r"\theta_4", r"\theta_5", r"\theta_6")
 COMPARED = "grey: %s; the brick and its coloured axes: %s"
-RPY = ("roll", "pitch", "yaw")
 
 
 @own_result
@@ -62,8 +60,7 @@ def show_rpy_entries(answer, values: dict[str, float]):
     matplotlib Axes (3D)
         The grey axes belong on those of the brick.
     """
-    found = [answer[name] for name in ("r22", "r23")] if isinstance(answer, dict) else answer
-    r22, r23 = numbers(found, "r22, r23", (2,), values)
+    r22, r23 = numbers(answer, "r22, r23", (2,), values)
     order = ("psi", "theta", "phi")
     matrix = turn_in_steps([values[name] for name in order], "zyx")[-1]
     matrix[1, 1:] = r22, r23
@@ -94,9 +91,7 @@ def show_triples(
     matplotlib Axes (3D)
         Every brick belongs on the axes of the wanted orientation.
     """
-    rows = [answer] if isinstance(answer, dict) else [entries(answer)] if len(entries(answer)) == 3 else answer
-    rows = [[row[name] for name in RPY] if isinstance(row, dict) else list(row) for row in rows]
-    rows = numbers(rows, "triples", (None, 3), {})[:4, list(order)]
+    rows = numbers_in_rows(answer, "triples", 3)[:4, list(order)]
     named = {} if names is None else {"names": names}
     ax = draw_gimbal(rows, axes, wanted=np.asarray(rotation, float), **named)
     _say(ax, COMPARED % (grey, "your angles"))
@@ -122,8 +117,7 @@ def show_wrist_formulas(answer, axes: str, angles=(0.6, 0.5, 0.4)):
     """
     rotation = turn_in_steps(angles, axes)[-1]
     values = {f"r{i + 1}{j + 1}": rotation[i, j] for i in range(3) for j in range(3)}
-    found = answer.tolist() if isinstance(answer, sympy.MatrixBase) else list(answer)
-    rows = [numbers(found, "angles", (3,), values | {"e": sign}) for sign in (1.0, -1.0)]
+    rows = [numbers(answer, "angles", (3,), values | {"e": sign}) for sign in (1.0, -1.0)]
     ax = draw_gimbal(rows, axes, names=JOINT_NAMES, captions=("e = 1", "e = \N{MINUS SIGN}1"), wanted=rotation)
     _say(ax, COMPARED % ("the wanted orientation", "your angles"))
     return ax

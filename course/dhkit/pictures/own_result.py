@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import wraps
+from functools import cache, wraps
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -11,6 +11,10 @@ from matplotlib.patches import Rectangle
 
 from ..drawing.inputs import as_numbers
 from ..drawing.style import SOFT, styled
+from ..forms.classic_table import CLASSIC_COLUMNS
+from ..forms.dh_table import DH_COLUMNS
+from ..nodes import array_shape
+from ..public import questions
 
 
 class NotAttempted(Exception):
@@ -28,7 +32,7 @@ def own_result(show):
     def picture(answer, *args, **kwargs):
         before = set(plt.get_fignums())
         try:
-            return show(attempted(answer), *args, **kwargs)
+            return show(attempted(laid_out(answer)), *args, **kwargs)
         except NotAttempted as blank:
             message = str(blank)
         except Exception as error:
@@ -59,6 +63,34 @@ def attempted(answer):
     if any(blanks):
         raise NotAttempted("not complete: some entries are still ...")
     return answer
+
+
+def laid_out(answer):
+    """`answer` with lists in place of dictionaries and sets, and 0 or 1 for truth values.
+
+    A dictionary whose keys are the names of some question's entries, joints or columns is put in their order, any
+    other in its own; what `dhkit.forms` accepts can then be drawn.
+    """
+    if isinstance(answer, dict):
+        items = {str(name): laid_out(value) for name, value in answer.items()}
+        ordered = [items[name] for name in _orders().get(frozenset(items), items)]
+        columns = ordered and all(isinstance(column, list) for column in ordered)
+        return [list(row) for row in zip(*ordered, strict=True)] if columns else ordered
+    if isinstance(answer, (sympy.MatrixBase, np.ndarray)):
+        return laid_out(answer.tolist())
+    if isinstance(answer, (list, tuple, set, frozenset)):
+        return [laid_out(item) for item in answer]
+    if isinstance(answer, (bool, np.bool_, sympy.logic.boolalg.BooleanAtom)):
+        return int(bool(answer))
+    return answer
+
+
+@cache
+def _orders() -> dict[frozenset[str], tuple[str, ...]]:
+    """The order of names that questions give to the entries of an answer, by these names."""
+    forms = [question.form for question in questions().values()]
+    named = [getattr(form, "names", ()) or getattr(form, "joints", ()) for form in forms]
+    return {frozenset(names): names for names in (DH_COLUMNS, CLASSIC_COLUMNS, *named) if names}
 
 
 def entries(answer) -> list:
@@ -109,10 +141,12 @@ def numbers(answer, what: str, shape: tuple, values: dict[str, float]) -> np.nda
 
 def numbers_in_rows(answer, what: str, width: int) -> np.ndarray:
     """An answer of several rows, of a single one, or of none, as floats: shape (k, width)."""
+    answer = laid_out(answer)
     found = entries(answer)
     if not found:
         return np.empty((0, width))
-    return numbers([found] if len(found) == width else [list(row) for row in answer], what, (None, width), {})
+    alone = array_shape(answer) in ((width,), (width, 1))
+    return numbers([found] if alone else [list(row) for row in answer], what, (None, width), {})
 
 
 def called(function, *arguments):
@@ -120,7 +154,8 @@ def called(function, *arguments):
     if not callable(function):
         raise ValueError(f"expected a function, found {type(function).__name__}")
     result = function(*arguments)
-    return [] if isinstance(result, (list, tuple, np.ndarray)) and len(result) == 0 else attempted(result)
+    result = laid_out(result)
+    return [] if isinstance(result, list) and not result else attempted(result)
 
 
 def say_if_not_rigid(ax, frame):

@@ -100,7 +100,7 @@ def show_circles(radii, sizes: dict[str, float], height: float):
     -------
     matplotlib Axes
     """
-    radii = numbers(list(radii.values()) if isinstance(radii, dict) else radii, "circles", (2,), {})
+    radii = numbers(radii, "circles", (2,), {})
     tips = pen_tip(np.random.default_rng(6).uniform(-np.pi, np.pi, (30000, 3)), sizes)
     near = tips[np.abs(tips[:, 2] - height) < 0.004]
     ax = plt.subplots(figsize=(4.7, 4.7))[1]

@@ -88,10 +88,9 @@ def show_linear(answer, lengths, target):
         Both arms end on the target; the lengths of (cos, sin) stand in the title.
     """
     (l2, l3), (x, y) = lengths, target
-    found = [answer[name] for name in ("cos_i", "sin_i")] if isinstance(answer, dict) else answer
     bends = two_link(x + 1j * y, l2, l3).bend
     given = {"X": l2, "Y": l3, "Z1": x, "Z2": y}
-    pairs = [numbers(found, "cos_i, sin_i", (2,), given | {"tj": bend}) for bend in bends]
+    pairs = [numbers(answer, "cos_i, sin_i", (2,), given | {"tj": bend}) for bend in bends]
     rows = [(np.arctan2(pair[1], pair[0]), bend) for pair, bend in zip(pairs, bends)]
     ax = draw_postures(lengths, rows, target)
     ax.set_title("cos² + sin² = " + " and ".join(f"{pair @ pair:.4g}" for pair in pairs))
