@@ -44,9 +44,9 @@ lock: setup
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --no-annotate --custom-compile-command "make lock" \
 	  --output-file constraints.txt requirements.txt
 
-# JupyterLab on the exercises.
+# JupyterLab on lectures and exercises.
 lab: setup
-	cd exercises && ../$(BIN)/jupyter lab
+	$(BIN)/jupyter lab course/01_parameters.ipynb
 
 # Measurements against peers, as ratios within one run.
 bench: setup .venv-bench/installed

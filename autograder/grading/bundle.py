@@ -33,9 +33,9 @@ You need Python 3.11 or newer. In this folder:
     .venv/bin/pip install -r course/requirements.txt ./course
     .venv/bin/jupyter lab
 
-(On Windows: `.venv\\\\Scripts\\\\pip` and `.venv\\\\Scripts\\\\jupyter`.)
+(On Windows: `.venv\\Scripts\\pip` and `.venv\\Scripts\\jupyter`.)
 
-* `course/` holds the lecture notebooks, in the order of the slides.
+* `course/` holds the lecture notebooks, to be read in their order.
 * `exercises/` holds one folder per exercise. Fill in the answer cells, run everything from top to bottom, and
   hand in the notebook under its own name. `hint(...)` helps you on.
 * `check(...)` says at once where an answer is right, or which mistake it shows; `solution(...)` unfolds once yours is

@@ -87,6 +87,7 @@ class _Camera:
             figure = self._draw(**values).figure
         self._frame.hold_planes(figure)
         size = tuple(figure.get_size_inches())
+        figure.draw_without_rendering()  # the layout moves what lies outside the axes
         box = figure.get_tightbbox().padded(0.1)
         self._boxes[size] = Bbox.union([box, self._boxes.get(size, box)])
         buffer = BytesIO()

@@ -7,7 +7,7 @@ import sympy
 
 from ..geometry import chain_products, modified_dh
 from .bodies import Bodies
-from .frames import merge_axes
+from .frames import ask_for_frames, merge_axes
 from .inputs import as_names, as_table, list_rows
 from .labels import Labels
 from .robot import Robot
@@ -131,14 +131,7 @@ def _joint_lines(robot) -> list[tuple[list[int], np.ndarray, np.ndarray]]:
 def _draw_frames(ax, frames, names, size, labels):
     origins = frames[:, :3, 3]
     ax.plot(*origins.T, "o", ms=4, color=INK, ls="none", zorder=7)
-    tips = []
-    for axis in merge_axes(frames, names, "xyz"):
-        end = axis.origin + size * axis.direction
-        draw_arrow_3d(ax, axis.origin, end, AXIS_COLOURS[axis.letter], AXIS_DASHES[axis.letter], width=1.8)
-        labels.ask(end, axis.label, axis.direction, AXIS_COLOURS[axis.letter])
-        labels.avoid(axis.origin + np.outer(np.linspace(0.1, 1, 9), end - axis.origin))
-        tips.append(end[None])
-    return [origins, *tips]
+    return [origins, *ask_for_frames(ax, labels, merge_axes(frames, names, "xyz"), size, width=1.8)]
 
 
 def _draw_normals(ax, robot, rows, labels, names):

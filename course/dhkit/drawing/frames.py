@@ -9,9 +9,10 @@ import sympy
 
 from ..geometry import rotation
 from .inputs import as_names, as_numbers
+from .labels import Labels
 from .strokes_3d import draw_angle_3d, draw_arrow_3d, write_3d
 from .style import AXIS_COLOURS, AXIS_DASHES, CENTRE_LINE, DASHED, FAINT, INK, SOFT, styled
-from .view import fit_3d, new_axes_3d
+from .view import fill_panel, fit_3d, new_axes_3d, view_axes
 
 
 class MergedAxis(NamedTuple):
@@ -55,6 +56,25 @@ def add_frames(ax, transforms, names, size, letters="xyz"):
         write_3d(ax, axis.origin + 1.28 * size * axis.direction, axis.label, color=colour)
 
 
+def ask_for_frames(ax, labels, axes, size, width=1.6) -> list[np.ndarray]:
+    """Draw axes of frames, `size` metres long, and ask for their names; returns their tips.
+
+    Where axes of two letters lie on one another, the second one is named at its middle.
+    """
+    tips: list[np.ndarray] = []
+    for axis in axes:
+        way, colour = size * axis.direction, AXIS_COLOURS[axis.letter]
+        end = axis.origin + way
+        draw_arrow_3d(ax, axis.origin, end, colour, AXIS_DASHES[axis.letter], width=width)
+        if any(np.allclose(end, tip) for tip in tips):
+            labels.ask(axis.origin + 0.5 * way, axis.label, np.cross(view_axes(ax)[2], way), colour, gap=7)
+        else:
+            labels.ask(end, axis.label, axis.direction, colour)
+        labels.avoid(np.linspace(axis.origin + 0.1 * way, end, 9))
+        tips.append(end)
+    return tips
+
+
 @styled
 def draw_frames_3d(transforms, names=None, ax=None, *, size=None, links=True, letters="xyz"):
     """Draw frames in space, joined in their order by grey links.
@@ -90,9 +110,14 @@ def draw_frames_3d(transforms, names=None, ax=None, *, size=None, links=True, le
         ax.plot(*origins.T, color=INK, lw=7, solid_capstyle="round", solid_joinstyle="round", zorder=1)
         ax.plot(*origins.T, color=FAINT, lw=5, solid_capstyle="round", solid_joinstyle="round", zorder=1.1)
     ax.plot(*origins.T, "o", ms=4, color=INK, ls="none", zorder=5)
-    add_frames(ax, transforms, names, size, letters)
+    labels = Labels()
+    ask_for_frames(ax, labels, merge_axes(transforms, names, letters), size)
     ends = (origins[:, None, :] + 1.35 * size * transforms[:, :3, :3].swapaxes(1, 2)).reshape(-1, 3)
-    fit_3d(ax, np.vstack([origins, ends]), own)
+    if own:
+        fit_3d(ax, np.vstack([origins, ends]), own)
+    else:
+        fill_panel(ax, np.vstack([origins, ends]))
+    labels.place(ax)
     return ax
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from ..geometry import rigid_transform
 from .frames import add_frames
 from .inputs import as_axis_letters, as_numbers
+from .labels import Labels
 from .orientation import ANGLE_NAMES, axis_direction, draw_brick, draw_round_arrow, turn_in_steps
 from .strokes_3d import arc_points, write_3d
 from .style import AXIS_COLOURS, CENTRE_LINE, INK, SOFT, styled
@@ -47,10 +48,10 @@ def draw_gimbal(angles=(0.0, 0.0, 0.0), axes="zyx", ax=None, *, names=ANGLE_NAME
         wanted = np.broadcast_to(as_numbers(wanted, "wanted", (None,) * np.ndim(wanted)), (len(rows), 3, 3))
     own, ax = ax is None, ax or new_axes_3d(elev=24, azim=-58)
     step = 3.9 * view_axes(ax)[0]
-    points = []
+    points, labels = [], Labels()
     for k, row in enumerate(rows):
         centre = k * step
-        _rings(ax, centre, row, axes, names)
+        _rings(ax, labels, centre, row, axes, names)
         if wanted is not None:
             _grey_axes(ax, centre, wanted[k])
         if k < len(captions):
@@ -59,6 +60,7 @@ def draw_gimbal(angles=(0.0, 0.0, 0.0), axes="zyx", ax=None, *, names=ANGLE_NAME
         points += [centre + (0, 0, -2.4)] if captions else []
         points += [centre + s * 0.48 * step for s in (1, -1)]
     fit_3d(ax, points, own, width=4.6 + 3.2 * (len(rows) - 1), height=4.8)
+    labels.place(ax)
     return ax
 
 
@@ -75,9 +77,11 @@ def gimbal_axes(angles, axes) -> np.ndarray:
     return np.array([state @ axis_direction(letter) for state, letter in zip(states, axes)])
 
 
-def _rings(ax, centre, angles, axes, names):
+def _rings(ax, labels, centre, angles, axes, names):
     states = turn_in_steps(angles, axes)
     lines = gimbal_axes(angles, axes)
+    tips = np.vstack([np.outer(np.linspace(0.3, 1.1, 7), axis) for axis in states[3].T])
+    labels.avoid(centre + tips)
     _base_hinge(ax, centre, lines[0])
     for radius, shades, first, second in ((1.3, ("#ebebeb", "#b4b4b4"), 0, 1), (0.98, ("#cfcfcf", "#777777"), 1, 2)):
         _ring(ax, centre, radius, states[second] @ axis_direction(axes[first]), lines[second], shades)
@@ -96,8 +100,9 @@ def _rings(ax, centre, angles, axes, names):
             owners = [hinge for hinge in group if sense * (lines[hinge] @ line) > 0]
             if owners:
                 text = ", ".join(f"{names[hinge]}\\;({axes[hinge]})" for hinge in owners)
-                at = centre + sense * 1.58 * line + 0.3 * _outwards(ax, sense * line)
-                write_3d(ax, at, f"${text}$", color=AXIS_COLOURS[axes[owners[0]]])
+                at, out = centre + sense * 1.58 * line, _outwards(ax, sense * line)
+                labels.ask(at, f"${text}$", out, AXIS_COLOURS[axes[owners[0]]], gap=10)
+                labels.avoid(at)
 
 
 def _same_lines(lines) -> list[list[int]]:

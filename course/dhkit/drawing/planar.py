@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.patches import Circle, Rectangle
 
-from ..geometry import planar_joints, unit_vector
+from ..geometry import phasor, planar_joints, unit_vector
 from .inputs import as_lengths, as_numbers, as_rows
 from .strokes import (
     draw_angle,
@@ -110,6 +110,7 @@ def draw_postures(lengths, solutions, target=None, ax=None, *, symmetry=False):
     total = lengths.sum()
     shaded = []
     for k, (t1, t2) in enumerate(solutions):
+        alike = [j + 1 for j, q in enumerate(solutions) if np.abs(phasor(q) - phasor((t1, t2))).max() < 1e-6]
         points = planar_joints(lengths, (t1, t2))
         fill = POSTURE_SHADES[k % len(POSTURE_SHADES)]
         outline = draw_arm(ax, points, fill, zorder=3 + k)
@@ -117,7 +118,8 @@ def draw_postures(lengths, solutions, target=None, ax=None, *, symmetry=False):
         shaded.append((outline, fill))
         out = points[1] - 0.5 * points[2]
         out = out / (np.hypot(*out) or 1)
-        write(ax, points[1] + 0.11 * total * out, str(k + 1), fontweight="bold")
+        if alike[0] == k + 1:
+            write(ax, points[1] + 0.11 * total * out, ", ".join(map(str, alike)), fontweight="bold")
     if symmetry and goal is not None:
         ax.plot(*zip((0, 0), 1.12 * goal), color=SOFT, lw=1.1, ls=CENTRE_LINE, zorder=2)
     if goal is not None:
@@ -148,7 +150,7 @@ def _legend_below(ax, handles, labels, columns=2):
 
 
 @styled
-def draw_workspace_2r(lengths, limits=None, ax=None, *, names=True):
+def draw_workspace_2r(lengths, limits=None, ax=None, *, names=("L_1", "L_2")):
     """Draw the workspace of a planar 2R arm: the ring between the inner and the outer limit.
 
     Parameters
@@ -156,8 +158,8 @@ def draw_workspace_2r(lengths, limits=None, ax=None, *, names=True):
     lengths : array-like, shape (2,), in metres
     limits : array-like, shape (2, 2), in radians, optional
         Rows (min, max) of t1 and t2; the part of the ring that they leave is darker.
-    names : bool
-        Draw and name the two radii.
+    names : two texts, or () for none
+        Names of the lengths, with which the two radii are drawn and named.
 
     Returns
     -------
@@ -173,10 +175,12 @@ def draw_workspace_2r(lengths, limits=None, ax=None, *, names=True):
         ax.add_patch(Circle((0, 0), inner, facecolor="white", edgecolor=INK, lw=1.6, ls=(0, (5, 2)), zorder=1.6))
     if limits is not None:
         ax.add_collection(_swept_area(lengths, limits))
+        ax.add_patch(Circle((0, 0), outer, fill=False, edgecolor=INK, lw=1.6, zorder=1.5))
     if names:
-        _radius(ax, outer, np.radians(28), r"r_\mathrm{max} = L_1 + L_2")
-    if names and inner > 1e-9:
-        _radius(ax, inner, np.radians(-62), r"r_\mathrm{min} = |L_1 - L_2|", beyond=0.15 * outer)
+        first, second = names
+        _radius(ax, outer, np.radians(28), rf"r_\mathrm{{max}} = {first} + {second}")
+        if inner > 1e-9:
+            _radius(ax, inner, np.radians(-62), rf"r_\mathrm{{min}} = |{first} - {second}|", beyond=0.15 * outer)
     draw_joint(ax, (0, 0))
     ax.set_xlim(-1.12 * outer, 1.12 * outer)
     ax.set_ylim(-1.12 * outer, 1.12 * outer)

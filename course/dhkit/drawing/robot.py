@@ -73,10 +73,17 @@ class Robot:
                 continue
             same_axis = np.linalg.norm(np.cross(self.z[i], self.z[i + 1])) < 1e-6 and self.table[i, 1] == 0
             if i + 1 == last and (i > 1 or same_axis):
-                way = np.sign(self.hand @ self.z[last]) if self.hand is not None and self.hand @ self.z[last] else 1
-                self.centres[last] = self.origins[last] + way * self._room_for_last_joint() * self.z[last]
+                self.centres[last] = (
+                    self.origins[last] + self._side_of_last_joint() * self._room_for_last_joint() * self.z[last]
+                )
             else:
                 self.centres[i] = self.centres[i] - 2.6 * self._half * self.z[i]
+
+    def _side_of_last_joint(self):
+        """On which side of its origin, along its axis, the last joint stands: where the hand or a straight tool is."""
+        bent = self.tool and (self.table[-1, 1] != 0 or abs(np.sin(self.table[-1, 2])) > 1e-9)
+        along = 0 if bent or self.hand is None else self.hand @ self.z[len(self.joints)]
+        return -1 if along < 0 else 1
 
     def _room_for_last_joint(self):
         """How far the last joint may stand before the one it meets: within the tool, if that is short."""

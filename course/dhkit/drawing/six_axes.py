@@ -56,10 +56,7 @@ def draw_six_axes(q=(0, 0, 0, 0, 0, 0), D3=0.2, L2=0.5, D4=0.6, h=0.2, ax=None):
     _add_links(ax, bodies, arm)
     points = [*_draw_floor(ax, arm), *_add_joints(ax, bodies, labels, arm)]
     bodies.draw(ax, zorder=2.5)
-    if q.any():  # the same view for all postures: the picture does not jump while a slider moves
-        side, top = 0.55 * (arm.unit + h), 0.68 * (arm.unit + h)
-        points = [(x, y, z) for x in (-side, side) for y in (-side, side) for z in (arm.floor, top)]
-    else:
+    if not q.any():
         points += _draw_dimensions(ax, arm)
     fit_3d(ax, points, own, width=5.6, height=6.0)
     labels.place(ax)
@@ -82,13 +79,13 @@ class _Arm:
 
 
 def _draw_floor(ax, arm):
-    """The floor with the directions of the base; the points that a view must hold."""
-    floor = np.array([0, 0, arm.floor])
+    """The floor, the directions of frame 0 in its corner, and its origin; the points that a view must hold."""
     corners = 0.32 * arm.unit * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]])
     ax.plot(*corners.T, arm.floor, color=FAINT, lw=0.8, zorder=0)
-    for letter, direction in zip("xy", np.eye(3)):
-        end = 0.3 * arm.unit * direction + floor
-        draw_arrow_3d(ax, floor, end, AXIS_COLOURS[letter], AXIS_DASHES[letter])
+    corner = np.array([-0.32 * arm.unit, -0.32 * arm.unit, arm.floor])
+    for letter, direction in zip("xyz", np.eye(3)):
+        end = 0.3 * arm.unit * direction + corner
+        draw_arrow_3d(ax, corner, end, AXIS_COLOURS[letter], AXIS_DASHES[letter])
         write_3d(ax, end + 0.06 * arm.unit * direction, f"${letter}$", color=AXIS_COLOURS[letter])
     write_3d(ax, (-0.05 * arm.unit, -0.05 * arm.unit, -0.02 * arm.unit), "$O$", ha="right")
     return [(*corner, arm.floor) for corner in corners]

@@ -42,14 +42,13 @@ def show_table(table, values: dict[str, float], tool=False):
     figure = plt.figure(figsize=(8.4, 3.6))
     names = [*map(str, range(len(rows))), "E" if tool else str(len(rows))]
     _typeset(figure.add_axes((0, 0.05, 0.44, 0.9)), rows, [*names[1:-1], "tool"] if tool else names[1:])
-    ax = add_axes_3d(figure, (0.42, -0.12, 0.6, 1.24), elev=24, azim=-66)
+    ax = add_axes_3d(figure, (0.45, 0, 0.55, 1), elev=24, azim=-66)
     draw_frames_3d(chain_products(modified_dh(*cells.T[1:])), names, ax)
-    ax.set_box_aspect(None, zoom=1.0)
     return ax
 
 
 def _typeset(ax, rows, names):
-    """The table as on a slide: header between two rules, one line per row."""
+    """The table as in a book: header between two rules, one line per row."""
     ax.axis("off")
     lines = [[f"${name}$" for name in COLUMNS]]
     lines += [[name, *map(_formula, row)] for name, row in zip(names, rows)]
