@@ -331,6 +331,14 @@ def _parser() -> argparse.ArgumentParser:
         "--to", metavar="FOLDER", help="folder to write to (default: build/reports/EXERCISE in the course)"
     )
 
+    term = command(
+        "term",
+        _term,
+        "Show the term at a glance: a page for the class, one per student, and equal wrong answers that are no chance.",
+        "autograder term",
+    )
+    term.add_argument("--to", metavar="FOLDER", help="folder to write to (default: build/term in the course)")
+
     export = command(
         "export", _export, "Write grades and notes as CSV.", "autograder export --exercise scara --to grades.csv"
     )
@@ -581,6 +589,22 @@ def _report(options) -> int:
     page = write_report(report, folder)
     report_table(report)
     print(f"report: {page}")
+    return 0
+
+
+def _term(options) -> int:
+    from datetime import UTC, datetime
+    from pathlib import Path
+
+    from autograder.grading.overview.page import write_pages
+    from autograder.grading.overview.reading import overview
+    from autograder.grading.table import term_table
+
+    target = Path(options.to).absolute() if options.to else None
+    course = _course(options)
+    found = overview(course, datetime.now(UTC).replace(tzinfo=None))
+    term_table(found)
+    print(write_pages(found, target or course.root / "build/term"))
     return 0
 
 

@@ -17,7 +17,7 @@ pipeline       grades a class: kernels side by side, gradebook by one thread
 results        what was found, one line per submission
 explain        how one verdict came about; changes: whose points moved when graded again
 returning      grades and pages as platforms take them back
-report/        the class report
+report/        the class report on one exercise; overview/: the term at a glance
 points         what a question is worth
 watch, archive what arrives; a term in one zip
 release, bundle, doctor    the other commands; table shows results and report in a terminal

@@ -20,7 +20,7 @@ from pathlib import Path
 
 from dhkit.variants import normal_form
 
-from .collecting.receipts import Receipt, read_receipts, receipts_folder
+from .collecting.receipts import Receipt, read_receipts, receipts_folder, teams
 from .course import Course, convert
 from .errors import CourseError
 from .files import staged
@@ -82,10 +82,7 @@ class _Class:
     @cached_property
     def teams(self) -> dict[str, str]:
         """The groups that handed in together, by the ids of their members who did not hand in alone."""
-        members = {
-            member.id: student for student, one in self.receipts.items() for member in self.roster.of_group(one.name)
-        }
-        return {member: team for member, team in members.items() if member not in self.grades}
+        return teams(self.receipts, self.roster, self.grades)
 
     def called(self, text: str) -> str | None:
         """The one who was graded under this id, however it is written."""

@@ -18,6 +18,7 @@ from .collecting.collect import Row
 from .course import Course
 from .enrolment import Enrolled
 from .inert import terminal_text
+from .overview.reading import Overview
 from .report.statistics import ENOUGH, ClassReport, QuestionReport
 from .results import Result, relative
 from .returning import Returned
@@ -132,6 +133,20 @@ def report_table(report: ClassReport) -> None:
             _look_at(question),
         )
     _console().print(table)
+
+
+def term_table(found: Overview) -> None:
+    """Who is falling behind, and how much else the pages tell."""
+    if found.behind:
+        table = Table("falling behind", "why")
+        for student, signs in found.behind.items():
+            table.add_row(_cell(student), _cell("; ".join(signs)))
+        _console().print(table)
+    off = sum(bool(one.off) for one in found.minutes)
+    print(
+        f"{len(found.behind)} of {len(found.students)} falling behind; {len(found.staying)} mistakes that stay; "
+        f"{off} questions whose minutes are wrong; {len(found.pairs)} pairs with equal wrong answers"
+    )
 
 
 def _discrimination(question: QuestionReport) -> str:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -108,23 +108,30 @@ def cluster(question: Question, attempts: Iterable[Attempt]) -> tuple[Cluster, .
     """
     attempts = sorted(attempts, key=lambda attempt: attempt.student)
     comparable = len({repr(attempt.right) for attempt in attempts}) <= 1
-    forms = [_form(question, attempt.answer) if comparable else None for attempt in attempts]
-    alike: list[list[int]] = []
+    alike = equal_answers(question, [attempt.answer if comparable else None for attempt in attempts])
     words: dict[str, list[int]] = {}
-    for i, form in enumerate(forms):
-        if form is None:
-            words.setdefault(_MEASURE.sub("...", attempts[i].feedback.partition(EXAMPLES)[0]), []).append(i)
-            continue
-        for group in alike:
-            first = forms[group[0]]
-            if attempts[group[0]].answer == attempts[i].answer or (first is not None and form.equals(first)):
-                group.append(i)
-                break
-        else:
-            alike.append([i])
+    for i in sorted(set(range(len(attempts))) - {i for group in alike for i in group}):
+        words.setdefault(_MEASURE.sub("...", attempts[i].feedback.partition(EXAMPLES)[0]), []).append(i)
     groups = [(group, True) for group in alike] + [(group, False) for group in words.values()]
     found = [Cluster(tuple(attempts[i] for i in group), by_value) for group, by_value in groups]
     return tuple(sorted(found, key=lambda cluster: -cluster.size))
+
+
+def equal_answers(question: Question, answers: Sequence[Decoded | None]) -> list[list[int]]:
+    """Places of answers that are equal for the question's kind of answer; those that cannot be compared are left out."""
+    forms = [_form(question, answer) for answer in answers]
+    groups: list[list[int]] = []
+    for i, form in enumerate(forms):
+        if form is None:
+            continue
+        for group in groups:
+            first = forms[group[0]]
+            if answers[group[0]] == answers[i] or (first is not None and form.equals(first)):
+                group.append(i)
+                break
+        else:
+            groups.append([i])
+    return groups
 
 
 def right_answer(question: Question, student: str) -> Decoded | None:

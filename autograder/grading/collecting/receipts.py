@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from datetime import datetime
 from pathlib import Path
 
@@ -13,6 +13,7 @@ import msgspec
 
 from ..errors import CourseError
 from ..files import write_whole
+from ..roster import Roster
 from .platforms import Platform
 
 FILE = "collected.json"
@@ -82,3 +83,9 @@ def write_receipts(folder: Path, receipts: Mapping[str, Receipt]) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     text = msgspec.json.format(msgspec.json.encode(dict(sorted(receipts.items()))), indent=1)
     write_whole(folder / FILE, text)
+
+
+def teams(receipts: Mapping[str, Receipt], roster: Roster, alone: Container[str]) -> dict[str, str]:
+    """The ids of groups that handed in together, by those of their members; who is among `alone` counts for himself."""
+    members = {member.id: team for team, one in receipts.items() for member in roster.of_group(one.name)}
+    return {member: team for member, team in members.items() if member not in alone}

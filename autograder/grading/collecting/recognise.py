@@ -92,7 +92,7 @@ def recognise(name: str, content: bytes, released: Sequence[Released]) -> Found:
     if lost:
         remarks = (*remarks, "its cells had lost their ids; recognised by what stands in them")
     answered = 0 if exercise is None else _answered(nb, by_name[exercise])
-    return Found(exercise, answered, _typed(nb), None, text, remarks)
+    return Found(exercise, answered, typed_id(nb), None, text, remarks)
 
 
 def _as_utf8(content: bytes) -> tuple[bytes, tuple[str, ...]]:
@@ -152,6 +152,7 @@ def _answered(nb: NotebookNode, released: Released) -> int:
     return min(released.checks, sum(cell.source not in released.sources for cell in nb.cells if cell.source.strip()))
 
 
-def _typed(nb: NotebookNode) -> str | None:
+def typed_id(nb: NotebookNode) -> str | None:
+    """The id that a notebook's author typed, None if there is none."""
     found = [match[1] for cell in nb.cells if cell.cell_type == "code" for match in _TYPED.findall(cell.source)]
     return found[-1].strip() or None if found else None

@@ -72,4 +72,4 @@ def _row(gradebook: Gradebook, assignment: Assignment, student: Student) -> dict
         bonus -= entry.score
         if entry.note not in (None, "right"):
             notes.append(f"{question_id(entry.check)}: {entry.note}")
-    return row | {"bonus": round(bonus, 2), "notes": "; ".join(notes)}
+    return row | {"bonus": round(bonus, 2) + 0.0, "notes": "; ".join(notes)}

@@ -237,11 +237,11 @@ def _attempts(course: Course, exercise: str, rows: dict[str, dict[str, tuple[flo
             record = check_record(cell)
             answer = recall(question_id(name), record and record.answer)
             right = right_answer(question, student) if question else None
-            found.setdefault(name, []).append(Attempt(student, _feedback(cell.outputs), answer, right))
+            found.setdefault(name, []).append(Attempt(student, told(cell.outputs), answer, right))
     return found
 
 
-def _feedback(outputs: Iterable[NotebookNode]) -> str:
+def told(outputs: Iterable[NotebookNode]) -> str:
     """What the judge said on a check cell, without Markdown."""
     feedback = next(
         (output.data.get("text/plain", "") for output in outputs if output.output_type == "display_data"), ""

@@ -103,6 +103,23 @@ def _trimmed(content: bytes) -> NotebookNode:
     return nb
 
 
+def cell_metadata(content: bytes) -> list[dict]:
+    """The metadata of a notebook's cells, as its author's program wrote them; none where they cannot be read."""
+    with _parsing:
+        try:
+            content = cut(cut(content, b"outputs", MAX_TOKENS), b"attachments", MAX_TOKENS)
+            found = _parse(content) if len(content) <= MAX_BYTES else None
+        except (TooManyTokens, Unreadable):
+            return []
+    cells = found.get("cells") if isinstance(found, dict) else None
+    metadata = (
+        [cell.get("metadata") for cell in cells[:MAX_CELLS] if isinstance(cell, dict)]
+        if isinstance(cells, list)
+        else []
+    )
+    return [one for one in metadata if isinstance(one, dict)]
+
+
 def fingerprint(folder: Path, released: bytes) -> str:
     """SHA-256 of a submission's files and of the released notebook: equal means there is nothing new to grade."""
     digest = hashlib.sha256(released)
