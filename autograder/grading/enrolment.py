@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
@@ -44,8 +44,7 @@ def enrol(course: Course, files: Sequence[Path]) -> list[Enrolled]:
         If a file is not a list of students; nothing is changed then.
     """
     roster = read_roster(course.root)
-    found = [person for file in files for person in _read(file)]
-    lines = merged(roster, found, student_names(course.step("submitted")))
+    lines = merged(roster, [_read(file) for file in files], student_names(course.step("submitted")))
     if files:
         write_whole(roster.path, roster_text(line.person for line in lines).encode())
     if is_made(course.db_url):
@@ -92,45 +91,57 @@ def _read(file: Path) -> list[Person]:
     if table is None or not ({"name", "last_name"} & table.columns.keys()):
         raise CourseError(
             f"{file} is neither Moodle's list of participants or grading worksheet nor Canvas's grade table: "
-            "it has no columns for names"
+            "it has no columns for names; write First name, Surname and Email address above them"
         )
     return [person for row in table.rows if (person := table.person(row)).id]
 
 
-def merged(roster: Roster, found: Iterable[Person], folders: Sequence[str] = ()) -> list[Enrolled]:
+def merged(roster: Roster, lists: Iterable[Sequence[Person]], folders: Sequence[str] = ()) -> list[Enrolled]:
     """The roster brought up to what platforms say of its people; whom it does not know comes at the end.
 
     Parameters
     ----------
+    lists : iterable of sequence of Person
+        What each list says; two lines of one list are two people.
     folders : sequence of str
         Ids under which work was collected before there was a roster: a new student keeps the own one.
     """
     people, status = list(roster.people), ["not in the files"] * len(roster.people)
-    for said in found:
-        place = _known(people, said)
-        if place is None:
-            people.append(replace(said, id=_new_id(said, people, folders)))
-            status.append("new")
-            continue
-        before = people[place]
-        settled = {name: value for name in _SETTLED if (value := getattr(said, name))}
-        people[place] = replace(before, **settled)
-        if status[place] != "new":
-            changed = people[place] != before or status[place] == "changed"
-            status[place] = "changed" if changed else "as before"
+    for found in lists:
+        taken: set[int] = set()
+        for said in found:
+            place = _known(people, said, taken)
+            if place is None:
+                taken.add(len(people))
+                people.append(replace(said, id=_new_id(said, people, folders)))
+                status.append("new")
+                continue
+            taken.add(place)
+            before = people[place]
+            settled = {name: value for name in _SETTLED if (value := getattr(said, name))}
+            people[place] = replace(before, **settled)
+            if status[place] != "new":
+                changed = people[place] != before or status[place] == "changed"
+                status[place] = "changed" if changed else "as before"
     return [Enrolled(person, what) for person, what in zip(people, status, strict=True)]
 
 
-def _known(people: Sequence[Person], said: Person) -> int | None:
-    """The one whom a platform speaks of: by a number or an address, else by a name that only one person has."""
+def _known(people: Sequence[Person], said: Person, taken: Container[int]) -> int | None:
+    """The one whom a platform speaks of: by a number or an address, else by a name that only one person has.
+
+    Who has been spoken of, `taken`, is not meant by the name again. Where only names tell, people of one name are
+    spoken of in their order.
+    """
+    numbers = False
     for names in _SAME:
         told = _values(said, names)
+        numbers |= bool(told)
         if same := [place for place, one in enumerate(people) if told & _values(one, names)]:
             return same[0]
     named = [place for place, one in enumerate(people) if normal_form(said.id) in one.names]
     # Of the same name, but with another number or address: somebody else.
-    same = [place for place in named if not _contradict(people[place], said)]
-    return same[0] if len(same) == 1 else None
+    same = [place for place in named if place not in taken and not _contradict(people[place], said)]
+    return same[0] if len(same) == 1 or (same and not numbers) else None
 
 
 def _values(person: Person, names: Sequence[str]) -> set[str]:
@@ -147,7 +158,7 @@ def _new_id(said: Person, people: Sequence[Person], folders: Sequence[str]) -> s
     for folder in folders:
         if normal_form(folder) in said.names and normal_form(folder) not in taken:
             return folder
-    name = re.sub(r"[<>\"&/\\\x00-\x1f]", "", said.id).strip().lstrip(".") or "student"
+    name = re.sub(r"[<>\"&/\\]", "", "".join(filter(str.isprintable, said.id))).strip(" .") or "student"
     ids = (name, *(f"{name} {number}" for number in range(2, len(people) + 3)))
     return next(one for one in ids if normal_form(one) not in taken)
 

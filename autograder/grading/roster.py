@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
@@ -17,12 +18,16 @@ from typing import Any
 
 from dhkit.variants import normal_form
 
+from .encodings import decoded
 from .errors import CourseError
 from .folders import why_unusable
 from .inert import from_spreadsheet, spreadsheet_cell
 
 FILE = "students.csv"
 _LONGEST_CELL = 16 << 20
+_WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
+# What Excel wants to be told in the first line, and keeps to itself when it reads.
+_SEPARATOR = re.compile(r"sep=(.)[;,\t]*\r?\n", re.IGNORECASE)
 _LISTS = ("groups", "extensions", "exempt")
 
 
@@ -124,14 +129,15 @@ def read_roster(root: Path) -> Roster:
     if not path.exists():
         return Roster((), path)
     rows = read_table(path)
-    if not rows or "id" not in rows[0]:
+    header = [name.strip().casefold().replace(" ", "_") for name in rows[0]] if rows else []
+    if "id" not in header:
         raise CourseError(
             f"{path} needs a first line with names of columns, one of them id; known: {', '.join(COLUMNS)}"
         )
     people: list[Person] = []
     seen: dict[str, str] = {}
     for number, row in enumerate(rows[1:], 2):
-        cells = dict(zip(rows[0], row, strict=False))
+        cells = dict(zip(header, row, strict=False))
         if not any(cells.values()):
             continue
         person = _person(cells)
@@ -183,24 +189,16 @@ def read_table(path: Path) -> Sequence[list[str]]:
     if not path.is_file():
         raise CourseError(f"there is no {path}")
     content = path.read_bytes()
-    if content.startswith(b"PK\x03\x04"):
+    if content.startswith(_WORKBOOKS):
         raise CourseError(f"{path} is a workbook or a zip; save it as CSV")
     text = decoded(content)
+    if told := _SEPARATOR.match(text):
+        text = text[told.end() :]
     csv.field_size_limit(_LONGEST_CELL)  # a worksheet may hold whole texts that students typed
     try:
-        return list(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter(text)))
+        return list(csv.reader(io.StringIO(text, newline=""), delimiter=told[1] if told else delimiter(text)))
     except csv.Error as error:
         raise CourseError(f"{path} is no table: {error}") from None
-
-
-def decoded(content: bytes) -> str:
-    """Text in whatever of the usual encodings it was saved."""
-    if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return content.decode("utf-16", "replace")
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return content.decode("cp1252", "replace")
 
 
 def delimiter(text: str) -> str:

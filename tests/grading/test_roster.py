@@ -7,7 +7,7 @@ from nbgrader.api import Student
 
 from autograder import cli
 from autograder.grading.course import open_course
-from autograder.grading.enrolment import merged
+from autograder.grading.enrolment import _read, merged
 from autograder.grading.errors import CourseError
 from autograder.grading.gradebook import reading
 from autograder.grading.roster import Person, Roster, read_roster, roster_text
@@ -86,7 +86,7 @@ def test_the_roster_survives_its_own_file(tmp_path):
 
 def test_two_platforms_make_one_line_and_the_lecturers_columns_stay(tmp_path):
     moodle = read_moodle(saved(tmp_path, "participants.csv", PARTICIPANTS))
-    first = merged(Roster(), [moodle.person(row) for row in moodle.rows])
+    first = merged(Roster(), [[moodle.person(row) for row in moodle.rows]])
     assert [(line.person.id, line.status) for line in first] == [
         ("Ada Lovelace", "new"), ("José García", "new"), ("José García 2", "new"), ("Zoë O'Brien", "new")
     ]  # fmt: skip
@@ -94,7 +94,7 @@ def test_two_platforms_make_one_line_and_the_lecturers_columns_stay(tmp_path):
         replace(line.person, id="ada", extensions=("scara=+3d",)) if line.person.id == "Ada Lovelace" else line.person
         for line in first
     ]
-    second = merged(table(people), read_canvas(saved(tmp_path, "grades.csv", GRADES)))
+    second = merged(table(people), [read_canvas(saved(tmp_path, "grades.csv", GRADES))])
     ada, jose, other, _ = second
     assert (ada.person.id, ada.person.canvas_id, ada.person.email, ada.person.extensions) == (
         "ada",
@@ -104,13 +104,13 @@ def test_two_platforms_make_one_line_and_the_lecturers_columns_stay(tmp_path):
     )
     assert (jose.person.canvas_id, jose.person.id, other.person.canvas_id) == ("3150", "José García", "")
     assert [line.status for line in second] == ["changed", "changed", "not in the files", "not in the files"]
-    third = merged(table([line.person for line in second]), read_canvas(saved(tmp_path, "grades.csv", GRADES)))
+    third = merged(table([line.person for line in second]), [read_canvas(saved(tmp_path, "grades.csv", GRADES))])
     assert [line.person for line in third] == [line.person for line in second]
     assert {line.status for line in third} == {"as before", "not in the files"}
 
 
 def test_who_was_collected_before_there_was_a_roster_keeps_the_id():
-    found = merged(Roster(), [Person("Ada Lovelace", "Lovelace", "Ada", canvas_id="3143")], ["lovelaceada", "x"])
+    found = merged(Roster(), [[Person("Ada Lovelace", "Lovelace", "Ada", canvas_id="3143")]], ["lovelaceada", "x"])
     assert found[0].person.id == "lovelaceada"
 
 
@@ -144,3 +144,51 @@ def test_another_table_is_refused_and_nothing_changes(course_copy, tmp_path, cap
     path = saved(tmp_path, "x.csv", "a,b\n1,2\n")
     assert cli.main(["roster", str(path), "--course", str(course_copy)]) == 2
     assert "no columns for names" in capsys.readouterr().err and not (course_copy / "students.csv").exists()
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        "sep=;\r\nFirst name;Surname;Email address\r\nZoë;Élie;z@x.org\r\n".encode(),
+        "First name\tSurname\tEmail address\nZoë\tÉlie\tz@x.org\n".encode("utf-16-le"),
+        "First name\tSurname\tEmail address\nZoë\tÉlie\tz@x.org\n".encode("utf-16-be"),
+    ],
+)
+def test_what_excel_makes_of_a_table_is_read(content, tmp_path):
+    (path := tmp_path / "list.csv").write_bytes(content)
+    assert [person.id for person in _read(path)] == ["Zoë Élie"]
+
+
+@pytest.mark.parametrize(
+    "content, said",
+    [
+        (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "workbook"),
+        ("Imię,Nazwisko\nAda,L\n".encode(), "write First name, Surname and Email address above them"),
+    ],
+)
+def test_a_table_that_is_not_read_says_what_to_do(content, said, tmp_path):
+    (path := tmp_path / "list.csv").write_bytes(content)
+    with pytest.raises(CourseError, match=said):
+        _read(path)
+
+
+def test_two_of_one_name_in_one_list_are_two_also_the_next_time():
+    twins = [Person("Ann B", "B", "Ann"), Person("Ann B", "B", "Ann")]
+    first = merged(Roster(), [twins])
+    assert [line.person.id for line in first] == ["Ann B", "Ann B 2"]
+    again = merged(Roster(tuple(line.person for line in first)), [twins])
+    assert [(line.person.id, line.status) for line in again] == [("Ann B", "as before"), ("Ann B 2", "as before")]
+    (one,) = merged(Roster(), [[twins[0]], [twins[1]]])  # in two lists it is one and the same
+    assert one.person.id == "Ann B"
+
+
+@pytest.mark.parametrize("name", [".", " . ", "..Ann", "\u200b", "<>"])
+def test_whatever_a_platform_calls_somebody_the_roster_can_be_read_again(name, tmp_path):
+    (line,) = merged(Roster(), [[Person(name, name, "")]])
+    (tmp_path / "students.csv").write_text(roster_text([line.person]), encoding="utf-8")
+    assert len(read_roster(tmp_path).people) == 1
+
+
+def test_headings_of_the_roster_may_be_written_large(tmp_path):
+    (tmp_path / "students.csv").write_text("ID;Last Name\nada;Lovelace\n")
+    assert read_roster(tmp_path).people == (Person("ada", "Lovelace"),)

@@ -13,7 +13,7 @@ import stat
 import struct
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
 from tempfile import SpooledTemporaryFile
@@ -134,8 +134,13 @@ def unpack(download: Path) -> Iterator[Packed]:
         file.seek(0)
         if is_zip:
             yield from _zip(file, size, _Place((download.name,)), None, 0)
-        else:
-            yield from _file(file, _Place((download.name,), (0,), (_written(download.stat()),)), _budget(size), 0)
+            return
+        (packed,) = _file(file, _Place((download.name,), (0,), (_written(download.stat()),)), _budget(size), 0)
+        if packed.content is None and packed.trouble is None:
+            packed = replace(
+                packed, trouble="it is neither a zip nor a notebook; was the page of a login saved instead?"
+            )
+        yield packed
 
 
 def _folder(folder: Path) -> Iterator[Packed]:

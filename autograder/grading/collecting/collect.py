@@ -79,7 +79,8 @@ def collect(
     folder = receipts_folder(course.root, exercise)
     receipts = read_receipts(folder)
     with TemporaryDirectory() as kept:
-        found = [piece for path in downloads for piece in pieces(path, released, roster, Path(kept))]
+        of_download = {path: pieces(path, released, roster, Path(kept)) for path in downloads}
+        found = [piece for some in of_download.values() for piece in some]
         groups: dict[Key, list[Piece]] = {}
         for piece in found:
             if piece.has_owner:
@@ -102,9 +103,12 @@ def collect(
             rows.append(replace(row, remarks=(*row.remarks, *remarks)))
     write_receipts(folder, receipts)
     rows += [
-        Row("?", "nobody's", piece.shown, _troubles([piece]))
+        Row("?", "nobody's", piece.shown, (*_troubles([piece]), *_lost(piece)))
         for piece in found
         if not piece.has_owner and piece.packed.name != EMPTY and not is_left_out(piece.packed.path[1:])
+    ]
+    rows += [
+        Row("?", "nobody's", path.name, ("there is nothing in it",)) for path, some in of_download.items() if not some
     ]
     rows += _absent(course, exercise, roster, receipts)
     return sorted(rows, key=lambda row: (row.student.casefold(), row.student, row.file))
@@ -174,6 +178,11 @@ def _troubles(pieces: Iterable[Piece]) -> tuple[str, ...]:
         *said[:_NAMES_SHOWN],
         *([f"and {len(said) - _NAMES_SHOWN} more of this kind"] if len(said) > _NAMES_SHOWN else ()),
     )
+
+
+def _lost(piece: Piece) -> tuple[str, ...]:
+    found = piece.found.exercise if piece.found else None
+    return (f"a notebook of {found}, but neither its name nor a folder says whose",) if found else ()
 
 
 def _may_be(piece: Piece, exercise: str) -> bool:

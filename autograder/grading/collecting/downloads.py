@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 from pathlib import Path, PurePath
@@ -12,12 +12,14 @@ from ..files import digest
 from ..inert import terminal_text
 from ..roster import Roster
 from .archives import EMPTY, Packed, is_left_out, unpack
-from .platforms import Sender, attempt, sender
+from .platforms import Sender, attempt, sender, without_attempt
 from .recognise import Found, Released, recognise
 
 # A download whose files were written one after the other tells when it was made, not when they were handed in: from
 # the first to the last, and half of them, within such a time.
 _ONE_DOWNLOAD, _HALF_OF_IT = timedelta(hours=1), timedelta(minutes=10)
+# So many names that begin alike, up to a hyphen, begin with the name of a group.
+_A_GROUP = 3
 _NOT_NAMES = {"exercises", "submitted", "submissions", "course", "solutions", "src"}
 
 
@@ -70,9 +72,11 @@ def pieces(download: Path, released: Sequence[Released], roster: Roster, kept: P
             what = replace(what, content=b"")
         files.append((replace(packed, content=None), what, copy))
     level = _platform_level([packed for packed, *_ in files])
-    names = {one.exercise for one in released} | _NOT_NAMES | {_stem(download.name).lower()}
+    exercises = {one.exercise for one in released}
+    names = exercises | _NOT_NAMES | {_stem(download.name).lower()}
     theirs = [packed for packed, *_ in files if packed.name != EMPTY and not is_left_out(packed.path[1:])]
     names |= {part.lower() for part in _wrapping(theirs, names)}
+    flat = _flat(files, names, exercises) if level is None else {}
     found = []
     for packed, what, copy in files:
         if level is not None:
@@ -81,8 +85,9 @@ def pieces(download: Path, released: Sequence[Released], roster: Roster, kept: P
         elif packed.name == EMPTY or is_left_out(packed.path[1:]):
             continue
         else:
-            whose, part = _plain(packed, what, names, roster), min(1, len(packed.path) - 1)
+            whose, part = _plain(packed, what, names, exercises, flat, roster), min(1, len(packed.path) - 1)
         found.append(Piece(packed, whose, what, copy, copy.name if copy else "", packed.written(part)))
+    found = _without_group(found, roster)
     times = [piece.written for piece in found]
     if not times:
         return []
@@ -117,15 +122,64 @@ def _platform_level(files: Sequence[Packed]) -> int | None:
     return None
 
 
-def _plain(packed: Packed, what: Found | None, not_names: set[str], roster: Roster) -> Sender:
+def _without_group(found: Sequence[Piece], roster: Roster) -> list[Piece]:
+    """Without the name of a group that Moodle wrote before every name: too often for chance, or the roster knows better."""
+    names = {piece.sender.name for piece in found if piece.sender.platform == "moodle" and piece.sender.name}
+    first = min(names, default="")
+    parts = [first[: hyphen.end()] for hyphen in re.finditer("-", first)]
+    group = next((part for part in reversed(parts) if all(name.startswith(part) for name in names)), "")
+    rests = [name.removeprefix(group) for name in names]
+    listed = roster.of_group(group.rstrip("-")) or all(map(roster.named, rests))
+    if not group or any(map(roster.named, names)) or not (len(names) >= _A_GROUP or listed):
+        return list(found)
+    return [
+        replace(piece, sender=replace(piece.sender, name=piece.sender.name.removeprefix(group)))
+        if piece.sender.name in names
+        else piece
+        for piece in found
+    ]
+
+
+def _flat(
+    files: Sequence[tuple[Packed, Found | None, Path | None]], not_names: set[str], exercises: Iterable[str]
+) -> dict[tuple[str, ...], str]:
+    """Names in the files' own names, where notebooks of several people lie side by side in one folder."""
+    loose = [(packed, what) for packed, what, _ in files if what and what.exercise and len(packed.starts) == 1]
+    names = {packed.path: _besides(packed.name, exercises) for packed, _ in loose}
+    typed = {what.typed for _, what in loose}
+    if any(part.lower() not in not_names for packed, _ in loose for part in _folders(packed)) or len(loose) < 2:
+        return {}
+    one_each = all(names.values()) and len(set(names.values())) == len(loose)
+    return names if one_each and (None in typed or len(typed) == len(loose)) else {}
+
+
+def _besides(name: str, exercises: Iterable[str]) -> str:
+    """What stands in a file's name besides the exercise, the ending and the number of a copy."""
+    text = re.sub(r"[\W_]+", " ", PurePath(without_attempt(name)).stem)
+    for exercise in sorted(exercises, key=len, reverse=True):
+        text = re.sub(rf"(?<!\S){exercise.replace('_', ' ')}(?!\S)", " ", text, flags=re.IGNORECASE)
+    return " ".join(text.split())
+
+
+def _plain(
+    packed: Packed,
+    what: Found | None,
+    not_names: set[str],
+    exercises: Iterable[str],
+    flat: Mapping[tuple[str, ...], str],
+    roster: Roster,
+) -> Sender:
     """Whose file it is where no platform says so: by a folder's or an archive's name, the roster's names first."""
     name = PurePath(packed.name).stem
-    outside = (*_folders(packed), *([name] if len(packed.starts) == 1 else []), _stem(packed.path[0]))
+    own = [name, _besides(packed.name, exercises)] if len(packed.starts) == 1 else []
+    outside = (*_folders(packed), *own, _stem(packed.path[0]))
     on_roster = next((part for part in outside if roster.named(part)), None)
     if on_roster is None and what and what.typed and roster.named(what.typed):
         on_roster = what.typed
     if on_roster is None and packed.trouble and len(packed.path) == 1:
         return Sender("plain", "")
+    if on_roster is None and packed.path in flat:
+        return Sender("plain", flat[packed.path])
     inside = [part for part in _folders(packed) if part.lower() not in not_names]
     return Sender("plain", on_roster or (*inside, *([_stem(packed.path[0])] if len(packed.path) > 1 else []), name)[0])
 

@@ -74,14 +74,15 @@ def owners(
 def _owner(whose: Sender, roster: Roster, people: Mapping[str, Person]) -> _Owner | None:
     """Who that is, by the platform's number or by a name that only one person has; None if neither tells."""
     person = people.get(whose.number) if whose.platform == "moodle" else roster.with_canvas_id(whose.number)
-    if person is not None:
+    members = [member.id for member in roster.of_group(whose.name)]
+    # Canvas gives the work of a group the number of one of its members.
+    if person is not None and not (members and normal_form(whose.name) not in person.names):
         return _Owner(person.id, sure=True)
     on_roster = roster.named(whose.name)
     if len(on_roster) > 1 or not whose.name:
         return None
     if on_roster:
         return _Owner(on_roster[0].id)
-    members = [member.id for member in roster.of_group(whose.name)]
     if members:
         return _Owner(_as_id(whose), (f"a group: {', '.join(members)}",))
     return _Owner(_as_id(whose), ("not on the roster",) if roster.people else ())

@@ -2,7 +2,7 @@
 
 Moodle (``mod/assign/classes/downloader.php``) writes ``<name>_<number>_assignsubmission_<plugin>`` as a folder or in
 front of the file's name. In the name ``_`` has become a blank, and ``& < > " ' ` | : \\ /`` are gone; the number is the
-participant's in this assignment. Canvas (``lib/content_zipper.rb``) writes ``<name>[_LATE]_<user>_<file>_`` in front of
+participant's in this assignment. Moodles before 4 write ``<group>-`` before the name where groups are separate. Canvas (``lib/content_zipper.rb``) writes ``<name>[_LATE]_<user>_<file>_`` in front of
 the file's name, the name in lower case, of word characters only, family name first; without names ``anon_<code>``.
 """
 
@@ -16,7 +16,7 @@ from typing import Literal
 Platform = Literal["moodle", "canvas", "plain"]
 
 _MOODLE = re.compile(r"(?P<name>.+?)(?:_(?P<number>\d+))?_assignsubmission_(?P<plugin>[a-z]+)(?:_(?P<rest>.*))?")
-_CANVAS = re.compile(r"(?P<name>\w+?)(?P<late>_LATE)?_(?P<number>\d+)_(?:(?P<file>\d+)_.+|text\.html|link\.html)")
+_CANVAS = re.compile(r"(?P<name>\w+?)(?P<late>_(?i:late))?_(?P<number>\d+)_(?:(?P<file>\d+)_.+|text\.html|link\.html)")
 _ANONYMOUS = re.compile(r"(?P<late>LATE_)?(?P<number>anon_[0-9A-Za-z]+)_(?:(?P<file>\d+)_.+|text\.html|link\.html)")
 # What Moodle calls everybody in blind marking, in some of its languages.
 _NOBODY = {"participant", "teilnehmerin", "participante", "partecipante", "deelnemer", "deltagare", "osallistuja"}
@@ -74,12 +74,18 @@ def attempt(name: str) -> int:
     return int((found[1] or found[2])[:9]) if found else 0
 
 
+def without_attempt(name: str) -> str:
+    """A file's name without that number."""
+    return _COPY.sub("", name)
+
+
 def _moodle(part: str) -> Sender | None:
     found, other = _MOODLE.fullmatch(part), _CANVAS.fullmatch(part)
     if found is None or (other is not None and other.start("number") < found.end("name")):
         return None
     prefix = part if found["rest"] is None else part[: found.start("rest")].rstrip("_")
-    name = "" if re.sub(r"[\W\d]", "", found["name"]).casefold() in _NOBODY else found["name"]
+    hidden = re.sub(r"[\W\d]", "", found["name"].rpartition("-")[2]).casefold() in _NOBODY
+    name = "" if hidden else found["name"]
     return Sender("moodle", name, found["number"] or "", prefix)
 
 

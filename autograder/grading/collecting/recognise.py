@@ -11,6 +11,7 @@ from pathlib import PurePath
 from nbformat.notebooknode import NotebookNode
 
 from ..cells import check_cells, grade_id, keeps_source, tracked_cells
+from ..encodings import utf16
 from ..submission.reading import Unreadable, read_content
 
 _CALL = re.compile(r"""\b(?:check|hint|variant)\(\s*["']([a-z0-9_]+)["'.]""")
@@ -97,7 +98,7 @@ def recognise(name: str, content: bytes, released: Sequence[Released]) -> Found:
 
 def _as_utf8(content: bytes) -> tuple[bytes, tuple[str, ...]]:
     """`content` in UTF-8; a text in the other encodings that editors write is converted, and that is said."""
-    if encoding := _utf16(content):
+    if encoding := utf16(content):
         try:
             return content.decode(encoding).encode(), ("was saved as UTF-16, and converted",)
         except UnicodeError:
@@ -110,15 +111,6 @@ def _as_utf8(content: bytes) -> tuple[bytes, tuple[str, ...]]:
         except UnicodeError:
             pass
     return content, ()
-
-
-def _utf16(content: bytes) -> str | None:
-    """Which UTF-16 it is, if it is: with its mark, or by the zeros beside the first letters."""
-    if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return "utf-16"
-    if len(content) > 3 and content[1] == content[3] == 0:
-        return "utf-16-le"
-    return "utf-16-be" if len(content) > 3 and content[0] == content[2] == 0 else None
 
 
 def _exercise(nb: NotebookNode, released: Sequence[Released]) -> str | None:

@@ -61,6 +61,8 @@ def roster(root, *names, more=""):
         ("lovelaceada_3143_text.html", "lovelaceada", "3143", "lovelaceada_3143", False),
         ("anon_aB3xZ_207797_scara.ipynb", "", "anon_aB3xZ", "anon_aB3xZ", False),
         ("LATE_anon_aB3xZ_207797_scara.ipynb", "", "anon_aB3xZ", "LATE_anon_aB3xZ", True),
+        ("lovelaceada_late_3143_207797_scara-1.ipynb", "lovelaceada", "3143", "lovelaceada_late_3143", True),
+        ("Group 1-Participant_77_assignsubmission_file_/scara.ipynb", "", "77", "Group 1-Participant_77_assignsubmission_file", False),
     ],
 )  # fmt: skip
 def test_a_downloaded_file_tells_its_sender(path, name, number, prefix, late):
@@ -255,6 +257,55 @@ def test_a_group_hands_in_for_its_members(downloads, collect, root):
     assert rows["Team 3"].remarks == ("a group: ada, ben",) and rows.keys() == {"Team 3", "cid"}
 
 
+def test_a_group_on_canvas_is_not_taken_for_its_representative(downloads, collect, root):
+    (root / "students.csv").write_text(
+        "id,last_name,first_name,canvas_id,groups\nada,Lovelace,Ada,3000,Team 3\nben,Moses,Ben,3001,Team 3\ncid,Moon,Cid,3002,\n"
+    )
+    names = {"Team 3": 3000, "Moon Cid": 3002}
+    made = downloads.zipped(
+        {
+            f"{name.replace(' ', '').lower()}_{number}_{number + 70_000}_scara.ipynb": right(downloads, name)
+            for name, number in names.items()
+        }
+    )
+    rows = {row.student: row for row in collect(made)}
+    assert rows.keys() == {"team3", "cid"} and rows["team3"].remarks == ("a group: ada, ben",)
+
+
+@pytest.mark.parametrize("listed", [True, False])
+def test_the_group_before_the_name_in_older_moodles_is_no_part_of_it(listed, downloads, collect, root):
+    names = ["Ada Lovelace", "Anne-Marie Moses", "Cid C"]
+    if listed:
+        roster(root, *names)
+    people = [student(downloads, f"TP-2-{name}", right(downloads, name)) for name in names]
+    made = downloads.moodle(people)
+    rows = statuses(collect(made))
+    assert rows == dict.fromkeys([f"s{number}" for number in range(3)] if listed else names, "collected")
+
+
+def test_one_alone_of_a_group_is_found_on_the_roster(downloads, collect, root):
+    roster(root, "Ada Lovelace", "Ben B")
+    made = downloads.moodle([student(downloads, "TP 2-Ada Lovelace", right(downloads, "ada"))])
+    assert statuses(collect(made)) == {"s0": "collected", "s1": "missing"}
+
+
+def test_a_double_name_is_no_group_and_a_name(downloads, collect, root):
+    people = [student(downloads, name, right(downloads, name)) for name in ("Anne-Marie A", "Anne-Sophie B", "Ben C")]
+    assert statuses(collect(downloads.moodle(people))).keys() == {"Anne-Marie A", "Anne-Sophie B", "Ben C"}
+
+
+@pytest.mark.parametrize("content", [b"", b"<!doctype html><title>Log in</title>", b"hello"])
+def test_what_is_no_download_is_nobodys_and_told(content, downloads, collect, root):
+    (row,) = collect(content)
+    assert (row.student, row.status) == ("?", "nobody's") and "neither a zip nor a notebook" in row.remarks[0]
+    assert not (root / "submitted").exists()
+
+
+def test_a_download_with_nothing_in_it_is_told(downloads, collect, root):
+    (row,) = collect(downloads.zipped({}))
+    assert (row.student, row.status) == ("?", "nobody's") and "nothing in it" in row.remarks[0]
+
+
 def test_plain_zips_and_folders(downloads, collect, root):
     notebook = {name: right(downloads, name) for name in ("Ann A", "Ben B", "Cid C", "Dan D", "Eve E")}
     roster(root, *notebook)
@@ -313,10 +364,11 @@ def test_a_download_that_cannot_be_read_is_named_and_the_others_are_collected(do
 def test_files_without_an_owner_are_named(downloads, collect, root):
     made = zipfile.ZipFile(file := io.BytesIO(downloads.moodle([student(downloads, "Ann A", right(downloads))])), "a")
     made.writestr("notes.txt", "for myself")
+    made.writestr("late.ipynb", right(downloads))
     made.close()
-    assert [(row.student, row.file) for row in collect(file.getvalue()) if row.status == "nobody's"] == [
-        ("?", "notes.txt")
-    ]
+    lost, notes = (row for row in collect(file.getvalue()) if row.status == "nobody's")
+    assert (notes.student, notes.file, notes.remarks) == ("?", "notes.txt", ())
+    assert lost.file == "late.ipynb" and "a notebook of scara, but" in lost.remarks[0]
 
 
 def bomb(size):
@@ -507,6 +559,13 @@ def test_an_empty_folder_is_told(downloads, collect, root):
     assert rows["Ann A"].status == "collected" and not rows["Ann A"].remarks
 
 
+def test_names_on_the_roster_are_found_in_names_of_files(downloads, collect, root):
+    roster(root, "Ada Lovelace", "Ben B", "Cid C")
+    names = ["ada_lovelace_scara.ipynb", "scara (Ben B).ipynb", "TP/Scara-cid-c-2.ipynb"]
+    made = downloads.zipped({name: right(downloads, name) for name in names})
+    assert statuses(collect(made)) == {"s0": "collected", "s1": "collected", "s2": "collected"}
+
+
 @pytest.mark.parametrize("name", ["x" * 300, "王" * 120, "a\u202eb\u0007c", "Ann ..", "~", "CON", "-rf", "Ann\u00a0A"])
 def test_odd_names_become_folders(name, downloads, collect, root):
     made = downloads.zipped({f"{name}_1_assignsubmission_file/scara.ipynb": (content := right(downloads))})
@@ -536,6 +595,9 @@ def test_encodings_of_editors_are_read(encoding, downloads, collect, root):
         ("Ann A.zip", ["scara.ipynb"], ["Ann A"]),
         ("all.zip", ["Ann A/scara/scara.ipynb"], ["Ann A"]),
         ("all.zip", ["all/Ann A/scara.ipynb"], ["Ann A"]),
+        ("all.zip", ["Ann A.ipynb", "Ben B.ipynb"], ["Ann A", "Ben B"]),
+        ("all.zip", ["ann_scara.ipynb", "scara-ben (1).ipynb"], ["ann", "ben"]),
+        ("Ann A.zip", ["scara.ipynb", "scara (1).ipynb", "scara_final.ipynb"], ["Ann A"]),
     ],
 )
 def test_a_plain_zip_is_read_by_its_folders(download, paths, names, downloads, collect, root):
