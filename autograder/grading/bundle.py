@@ -14,7 +14,7 @@ from .errors import CourseError
 from .roster import read_roster
 
 FOLDERS = ("course", "exercises")
-FOR_LECTURERS = ("course/13_errata.ipynb",)
+FOR_LECTURERS = ("course/15_errata.ipynb",)
 """Notebooks that stay with the lecturer: they answer "find the slide's error" and import the autograder."""
 
 IDS = f"course/dhkit/{LIST}"

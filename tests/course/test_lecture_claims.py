@@ -18,9 +18,9 @@ LECTURES = Path(__file__).parents[2] / "course"
 
 
 @cache
-def lecture(number: str) -> dict:
+def lecture(name: str) -> dict:
     """The names that a lecture defines; what only shows something is left out."""
-    (path,) = LECTURES.glob(f"{number}_*.ipynb")
+    (path,) = LECTURES.glob(f"??_{name}.ipynb")
     names: dict = {}
     for cell in nbformat.read(path, as_version=4).cells:
         if cell.cell_type == "code":
@@ -31,8 +31,8 @@ def lecture(number: str) -> dict:
 
 
 @pytest.mark.parametrize("phi", [np.pi, np.pi - 1e-7, np.pi - 1e-11, np.radians(179.9), 0.0, 1.2])
-def test_11_the_direct_model_of_the_3rpr_loses_no_pose(phi):
-    names = lecture("11")
+def test_parallel_robots_the_direct_model_of_the_3rpr_loses_no_pose(phi):
+    names = lecture("parallel_robots")
     for x, y in np.random.default_rng(3).uniform((0.3, 0.3), (0.9, 0.9), (40, 2)):
         lengths = names["leg_lengths"](x, y, phi)
         poses = np.array(names["direct"](lengths))
@@ -42,8 +42,8 @@ def test_11_the_direct_model_of_the_3rpr_loses_no_pose(phi):
         assert all(np.allclose(names["leg_lengths"](*pose), lengths, atol=1e-6) for pose in poses)
 
 
-def test_11_with_legs_1_and_2_locked_the_platform_has_two_loops():
-    names = lecture("11")
+def test_parallel_robots_with_legs_1_and_2_locked_the_platform_has_two_loops():
+    names = lecture("parallel_robots")
     A, b, (q1, q2, _) = names["A"], names["b"], names["lengths"]
     sides = []
     for angle in np.linspace(-np.pi, np.pi, 181):
@@ -60,12 +60,12 @@ def rotation(angle):
 
 
 @pytest.mark.parametrize("q3, count", [(0.25, 0), (0.5, 2), (0.84, 4), (0.9, 6), (0.99, 4), (1.3, 2), (1.59, 0)])
-def test_11_counts_of_modes_for_the_third_leg(q3, count):
-    assert len(lecture("11")["direct"]((1.0, 0.5, q3))) == count
+def test_parallel_robots_counts_of_modes_for_the_third_leg(q3, count):
+    assert len(lecture("parallel_robots")["direct"]((1.0, 0.5, q3))) == count
 
 
-def test_08_on_the_cylinder_both_shoulders_of_the_puma_merge():
-    names = lecture("08")
+def test_singularities_on_the_cylinder_both_shoulders_of_the_puma_merge():
+    names = lecture("singularities")
     draw = np.random.default_rng(4).uniform(-np.pi, np.pi, (60, 6))
     for t1, _, t3, *wrist in draw:
         # the forearm bends back so far that the wrist centre is beside axis 1: a2 C2 + f cos(t2 + t3 + delta) = 0
@@ -77,15 +77,15 @@ def test_08_on_the_cylinder_both_shoulders_of_the_puma_merge():
         assert all(abs(names["pose"](names["puma"](*q)) - pose).max() < 1e-6 for q in postures)
 
 
-def test_08_inside_the_cylinder_the_puma_finds_nothing():
-    names = lecture("08")
+def test_singularities_inside_the_cylinder_the_puma_finds_nothing():
+    names = lecture("singularities")
     pose = np.eye(4)
     pose[:3, 3] = 0.1, 0.05, 0.5 + 0.06
     assert names["inverse_puma"](pose) == []
 
 
-def test_08_a_hand_on_axis_1_leaves_two_representatives_of_the_elbow_arm():
-    names = lecture("08")
+def test_inverse_models_a_hand_on_axis_1_leaves_two_representatives_of_the_elbow_arm():
+    names = lecture("inverse_models")
     postures = names["inverse_elbow"](0, 0, 0.6)
     assert len(postures) == len(distinct(postures)) == 2 and {q[0] for q in postures} == {0.0}
     assert all(np.allclose(names["pose"](names["elbow"](*q))[:3, 3], (0, 0, 0.6)) for q in postures)
@@ -94,14 +94,14 @@ def test_08_a_hand_on_axis_1_leaves_two_representatives_of_the_elbow_arm():
 @pytest.mark.parametrize(
     "r, count", [(0.09, 8), (0.11, 4), (0.59, 4), (0.61, 8), (2.39, 8), (2.41, 4), (3.09, 4), (3.11, 0)]
 )
-def test_08_postures_of_the_kr210_at_the_height_of_axis_2(r, count):
-    names = lecture("08")
+def test_singularities_postures_of_the_kr210_at_the_height_of_axis_2(r, count):
+    names = lecture("singularities")
     pose = names["pose"](names["kr210"](*np.radians([25, -40, 30, 15, 50, -20])))
     pose[:3, 3] = (r, 0, 0.75) + 0.303 * pose[:3, 2]
     assert len(names["inverse_kr210"](pose)) == count
 
 
-def test_02_the_sliders_reach_what_is_asked():
+def test_transforms_the_sliders_reach_what_is_asked():
     from dhkit.interactive import step_of
 
     cell = next(
@@ -116,10 +116,10 @@ def test_02_the_sliders_reach_what_is_asked():
     assert all(low <= value <= high for value, (low, high, _) in zip((60, x, y), ranges.values()))
 
 
-def test_09_two_arms_reach_the_start_of_the_slider():
+def test_workspace_two_arms_reach_the_start_of_the_slider():
     from dhkit.drawing.workspace import count_postures
 
-    names = lecture("09")
+    names = lecture("workspace")
     counts = count_postures(
         np.array(names["lengths"]), np.array(names["both_ways"]), np.array([[0.36, 0.64], [0.36, 0.56]])
     )
@@ -134,8 +134,8 @@ def distinct(postures, tolerance=1e-6) -> list:
     return kept
 
 
-def test_01_the_slide_leaves_the_normal_alone_and_the_turn_only_lifts_it():
-    feet = lecture("01")["feet"]
+def test_parameters_the_slide_leaves_the_normal_alone_and_the_turn_only_lifts_it():
+    feet = lecture("parameters")["feet"]
     for slide in (-0.3, 0.4):
         for turn in np.radians([-50, 1, 10, 70]):
             along = np.array([0, -np.sin(turn), np.cos(turn)])
@@ -147,8 +147,8 @@ def test_01_the_slide_leaves_the_normal_alone_and_the_turn_only_lifts_it():
         feet((0, 0, 0), (0, 0, 1), (0.3, 0.4, 0.9), (0, 0, 1))
 
 
-def test_03_the_printed_wrist_has_two_freedoms_and_the_repaired_one_three():
-    names = lecture("03")
+def test_tables_the_printed_wrist_has_two_freedoms_and_the_repaired_one_three():
+    names = lecture("tables")
     freedoms, wrist, posed = names["freedoms"], names["wrist"], names["posed"]
     assert [freedoms(names["wrist_printed"], posed), freedoms(wrist, posed), freedoms(wrist, posed | {"t5": 0})] == [
         2,
@@ -157,24 +157,24 @@ def test_03_the_printed_wrist_has_two_freedoms_and_the_repaired_one_three():
     ]
 
 
-def test_04_with_axes_3_and_4_down_three_signs_turn():
-    names = lecture("04")
-    T, a3, d2, t4 = (names[name] for name in ("T", "a3", "d2", "t4"))
+def test_scara_with_axes_3_and_4_down_three_signs_turn():
+    names = lecture("scara")
+    T, a3, d2, t4 = (names[name] for name in ("dhm", "a3", "d2", "t4"))
     half_turn = names["rot_x"](names["pi"])
     down = T(a3, names["pi"], d2, 0) * T(0, 0, 0, -t4)
     assert names["simplify"](down - T(a3, 0, -d2, 0) * T(0, 0, 0, t4) * half_turn) == names["zeros"](4)
 
 
 @pytest.mark.parametrize("distance, height, count", [(0.3, 0.5, 8), (0.54, 0.72, 4), (0.74, 0.5, 8), (0.76, 0.5, 0)])
-def test_08_postures_of_the_rx90_inside_on_and_outside_its_sphere(distance, height, count):
-    names = lecture("08")
+def test_inverse_models_postures_of_the_rx90_inside_on_and_outside_its_sphere(distance, height, count):
+    names = lecture("inverse_models")
     pose = names["U"].copy()
     pose[:3, 3] = distance * np.cos(0.35), distance * np.sin(0.35), height
     assert len(names["inverse_rx90"](pose)) == count
 
 
-def test_10_what_the_pen_does_in_the_tries():
-    names = lecture("10")
+def test_pen_robot_what_the_pen_does_in_the_tries():
+    names = lecture("pen_robot")
     pen_tip, sizes = names["pen_tip"], names["PEN_SIZES"]
     for turn in (-90, 0, 100):
         assert np.allclose(pen_tip(np.radians([-25, 30 + turn, 75 - turn])), (0.557, -0.017, 0.243), atol=5e-4)
@@ -191,8 +191,8 @@ def test_10_what_the_pen_does_in_the_tries():
     assert sizes["h1"] - sizes["p1"] == pytest.approx(0.08)
 
 
-def test_11_what_the_legs_notice_in_the_tries():
-    names = lecture("11")
+def test_parallel_robots_what_the_legs_notice_in_the_tries():
+    names = lecture("parallel_robots")
     legs, start, modes = names["leg_lengths"], np.array([0.55, 0.6, 0.35]), names["modes"]
     assert np.allclose(legs(*(start + (0, 0, 0.1))) - legs(*start), (0.014, 0.021, -0.020), atol=5e-4)
     one_motor = legs(*(start + (0, 0.0057, -0.0277))) - legs(*start)
@@ -202,9 +202,9 @@ def test_11_what_the_legs_notice_in_the_tries():
     assert np.allclose(wide / narrow, (4, 4, 2), atol=0.01)
 
 
-def test_12_with_axis_3_down_the_last_angle_keeps_its_sign():
-    names = lecture("12")
-    T, r, t4 = names["T"], names["r3"] + names["r30"], names["t4"]
+def test_scara_s600_with_axis_3_down_the_last_angle_keeps_its_sign():
+    names = lecture("scara_s600")
+    T, r, t4 = names["dhm"], names["r3"] + names["r30"], names["t4"]
     down = T(names["d3"], names["sympy"].pi, -r, 0) * T(0, 0, 0, t4)
     assert names["simplify"](down - names["T24"]) == names["sympy"].zeros(4)
     at_start = [np.degrees(q[3]) for q in names["mgi"](0.33, 0.43, -0.1, np.radians(60))]

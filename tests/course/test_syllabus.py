@@ -19,7 +19,10 @@ from dhkit.public import questions
 ROOT = Path(__file__).parents[2]
 SYLLABUS = tomllib.loads((ROOT / "docs/syllabus.toml").read_text())
 TOPICS = SYLLABUS["topic"]
+LECTURES = SYLLABUS["lecture"]
+COURSE = ROOT / "course"
 README = (ROOT / "README.md").read_text()
+LECTURERS = (ROOT / "docs/lecturers.md").read_text()
 MODULES = [ast.parse(file.read_text()) for file in (ROOT / "autograder/questions").rglob("*.py")]
 # Robots that questions make with lengths or readings of their own.
 MADE_BY = {"planar": {"PLANAR_4R"}, "pen": {"PEN_A", "PEN_B", "PEN_C"}, "scara_centres": {"SCARA_EPFL"}}
@@ -48,8 +51,9 @@ def test_there_are_thirty_topics_from_five_documents():
 
 
 @pytest.mark.parametrize("topic", TOPICS, ids=lambda topic: f"{topic['source']}: {topic['task']}")
-def test_every_topic_is_asked(topic):
+def test_every_topic_is_taught_and_asked(topic):
     assert topic["questions"] and set(topic["questions"]) <= asked()
+    assert topic["lecture"] in {lecture["notebook"] for lecture in LECTURES}
 
 
 def test_there_are_at_least_eighty_questions_of_every_kind():
@@ -75,18 +79,64 @@ def test_every_misconception_of_the_catalogue_stands_in_a_tree():
     assert makes - {"classic_transform", "product"} - set(names_used()) == set()
 
 
-def test_every_lecture_has_its_exercise_and_stands_in_the_readme():
-    lectures = {path.stem for path in (ROOT / "course").glob("[0-9]*.ipynb")}
-    assert {name.partition("_")[2] for name in lectures} - set(exercises()) == {"errata"}
-    table = re.findall(r"^\| `course/(\w+).ipynb` \| (?:`exercises/(\w+)/`|for lecturers) \|", README, re.M)
-    assert {lecture for lecture, _ in table} == lectures
-    assert all(exercise in ("", lecture.partition("_")[2]) for lecture, exercise in table)
+def test_lectures_stand_in_an_order_that_their_needs_allow_and_each_exercise_follows_one():
+    names = [lecture["notebook"] for lecture in LECTURES]
+    assert names == sorted(path.stem for path in COURSE.glob("[0-9]*.ipynb") if not path.stem.endswith("_errata"))
+    for k, lecture in enumerate(LECTURES):
+        assert set(lecture["needs"]) <= set(names[:k])
+        assert 30 <= lecture["minutes"] <= 90
+    assert sorted(filter(None, map(exercise_of, LECTURES))) == sorted(exercises())
+
+
+def exercise_of(lecture) -> str:
+    return lecture.get("exercise", "")
+
+
+def title(name) -> str:
+    """The cell that a lecture begins with."""
+    return nbformat.read(COURSE / f"{name}.ipynb", as_version=4).cells[0].source
+
+
+def link(name) -> str:
+    heading = title(name).partition("\n")[0].removeprefix("# ")
+    return f"[{name[:2]} {heading.partition(':')[0]}]({name}.ipynb)"
+
+
+@pytest.mark.parametrize("place, lecture", enumerate(LECTURES), ids=lambda value: str(value)[:30])
+def test_a_lecture_says_its_time_what_it_needs_and_what_follows(place, lecture):
+    needs = ", ".join(map(link, lecture["needs"])) or "matrices and vectors, a little Python"
+    exercise = exercise_of(lecture)
+    then = [f"the exercise [{exercise}](../exercises/{exercise}/{exercise}.ipynb)"] if exercise else []
+    then += [f"lecture {link(LECTURES[place + 1]['notebook'])}"] if place + 1 < len(LECTURES) else []
+    said = [f"**Time** about {lecture['minutes']} minutes", f"**needs** {needs}", f"**then** {', '.join(then)}"]
+    said += ["**terms** [glossary](glossary.ipynb)"]
+    assert title(lecture["notebook"]).split("\n")[2] == " · ".join(said)
+
+
+@pytest.mark.parametrize("path", sorted(COURSE.glob("*.ipynb")), ids=lambda path: path.stem)
+def test_links_between_notebooks_lead_somewhere(path):
+    for cell in nbformat.read(path, as_version=4).cells:
+        if cell.cell_type == "markdown":
+            for target in re.findall(r"\]\(([^)#:]+\.ipynb)\)", cell.source):
+                assert (COURSE / target).exists(), f"{cell.id}: {target}"
+
+
+def test_readme_and_term_plan_list_every_lecture_with_its_exercise():
+    pairs = [(lecture["notebook"], exercise_of(lecture)) for lecture in LECTURES]
+    table = re.findall(r"^\| `course/(\w+).ipynb` \| (?:`exercises/(\w+)/`)? ?\|", README, re.M)
+    assert table[: len(pairs)] == pairs and [name for name, _ in table[len(pairs) :]] == ["glossary"]
+    plan = re.findall(r"^\| \d+ \| `(\w+)` \| (\d+) \| (?:`(\w+)`)? ?\| ([\d.]*) ?\|", LECTURERS, re.M)
+    assert [(name, exercise) for name, _, exercise, _ in plan] == pairs
+    assert [int(minutes) for _, minutes, _, _ in plan] == [lecture["minutes"] for lecture in LECTURES]
+    for _, _, exercise, hours in plan:
+        counted = sum(q.minutes for q in questions().values() if q.exercise == exercise)
+        assert exercise == hours == "" or counted <= 60 * float(hours) <= 2 * counted + 30, (exercise, counted)
 
 
 @pytest.mark.slow
 @pytest.mark.notebook
 def test_the_errata_lecture_shows_every_erratum_with_its_proof():
-    lecture = nbformat.read(ROOT / "course/13_errata.ipynb", as_version=4)
+    lecture = nbformat.read(ROOT / "course/15_errata.ipynb", as_version=4)
     done = NotebookClient(lecture, timeout=120).execute()
     shown = "\n".join(
         output.get("data", {}).get("text/html", "") for cell in done.cells for output in cell.get("outputs", ())

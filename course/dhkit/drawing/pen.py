@@ -189,11 +189,10 @@ def _name_lengths(ax, labels, at, q, sizes, unit, repaired):
     ax.plot(*zip(at["O1"], ends[0]), **pen)
     labels.ask(ends[0], "axis 1", z, blue, 10)
     last = at["O2"] if repaired else at["O3"]
-    tip = last + 0.16 * unit * y1
+    tip = last + 0.3 * unit * y1  # beyond the arc of the pen
     ax.plot(*zip(at["A"] - 0.1 * unit * y1, tip), **pen)
-    start = at["A"] - 0.1 * unit * y1  # away from the arc of the pen
-    labels.ask(start, "axis 2" if repaired else "axes 2 and 3", -y1, blue, 10)
-    ends += [tip, start]
+    labels.ask(tip, "axis 2" if repaired else "axes 2 and 3", y1, blue, 10)
+    ends += [tip, at["A"] - 0.1 * unit * y1]
     if repaired:
         ends.append(at["O3"] + 0.14 * unit * y1)
         ax.plot(*zip(at["O3"], ends[-1]), **pen)
