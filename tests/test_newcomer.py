@@ -211,7 +211,7 @@ def test_a_robot(newcomer):
     assert [float(x) for x in hand] == pytest.approx([-0.81725, -0.19145, -0.00549]), (
         "the data sheet's own zero position"
     )
-    assert has_inverse == "False"
+    assert has_inverse == "True"
 
 
 @pytest.mark.slow

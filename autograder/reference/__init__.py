@@ -42,6 +42,18 @@ array([[-1.349,  1.571],
 >>> misfits(robots.PUMA_PRINTED.table)["elbow arm with a spherical wrist"]
 'axes 5 and 6 are not at a right angle: alpha_5 = 0 degrees'
 
+Arms whose joints hold a group of three (a wrist, three parallel axes), wherever it stands, are solved too: UR arms,
+Stanford arms, gantries, and arms of fewer joints that are such an arm with some left out.
+
+>>> half = np.pi / 2
+>>> rows = [(0, 0, half, 0.09, None), (0, -0.42, 0, 0, None), (0, -0.39, 0, 0, None)]
+>>> rows += [(0, 0, half, 0.11, None), (0, 0, -half, 0.09, None), (0, 0, 0, 0.08, None)]
+>>> ur5 = Robot(DHTable.from_classic(rows, name="UR5"))
+>>> len(ur5.inverse(ur5.forward([0.3, -1.0, 1.2, 0.4, 0.5, 0.6])))
+8
+>>> ur5.inverse(ur5.forward([0.3, -1.0, 1.2, 0.4, 0.0, 0.6])).free
+'q6 free'
+
 **Families.** A singular or redundant posture names its free direction; `near` chooses the member that is reported.
 
 >>> aligned = arm.inverse(arm.forward([0.3, 0.4, 0.5, 0.6, 0, 0.7]), near=[0, 0, 0, 1.0, 0, 0.3])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .decoupled import Decoupled, PointArm
 from .elbow import ElbowArm, WristAlone, WristedArm
 from .inverse import InverseModel
 from .pen import PenArm
@@ -15,6 +16,8 @@ CLASSES: dict[str, type[InverseModel]] = {
     "elbow arm with a spherical wrist": WristedArm,
     "spherical wrist": WristAlone,
     "pen robot": PenArm,
+    "arm of three joints for a point": PointArm,
+    "decoupled arm": Decoupled,
 }
 """The classes of robots that have a closed-form inverse model, by their names."""
 

@@ -2,7 +2,7 @@
 
 A robot's `InverseModel.closed_form` takes poses and returns arrays of branches, vectorised over the poses; one pose is
 a batch of one. The closed forms are in `planar_arms` (planar arms, SCARA), `elbow` (elbow arms, spherical wrist) and
-`pen`, and share the two-link arm of `dhkit.geometry`.
+`pen`, and share the two-link arm of `dhkit.geometry`; `decoupled` has every other arm with a group of three joints.
 """
 
 from __future__ import annotations

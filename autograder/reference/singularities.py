@@ -12,6 +12,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import ArrayLike
 
+from .forward import Chain
 from .tables import DHTable
 
 
@@ -33,7 +34,11 @@ def jacobian(table: DHTable, q: ArrayLike) -> np.ndarray:
     Source: D. Whitney, "Resolved motion rate control of manipulators and human prostheses", 1969,
     doi:10.1109/TMMS.1969.299896.
     """
-    chain = table.chain
+    return chain_jacobian(table.chain, q)
+
+
+def chain_jacobian(chain: Chain, q: ArrayLike) -> np.ndarray:
+    """`jacobian` of a table that is numbers already."""
     frames = chain.frames(q)
     axes = frames[..., :3, 2]
     arms = chain.forward(q)[..., None, :3, 3] - frames[..., :3, 3]
@@ -57,7 +62,11 @@ def rank(table: DHTable, q: ArrayLike, tol: float = 1e-9) -> np.ndarray:
     -------
     int array, shape (...)
     """
-    values = np.linalg.svd(jacobian(table, q), compute_uv=False)
+    return _rank(jacobian(table, q), tol)
+
+
+def _rank(J: np.ndarray, tol: float = 1e-9) -> np.ndarray:
+    values = np.linalg.svd(J, compute_uv=False)
     return (values > tol * values[..., :1]).sum(axis=-1)
 
 
@@ -67,8 +76,13 @@ def mobility(table: DHTable, samples: int = 20, seed: int = 0) -> int:
     Less than the number of joints means that the table itself is degenerate. The printed
     PUMA-like table has 5: its row 6 puts axis 6 on axis 5.
     """
-    q = np.random.default_rng(seed).uniform(-1.0, 1.0, (samples, table.chain.joints))
-    return int(rank(table, q).max())
+    return chain_mobility(table.chain, samples, seed)
+
+
+def chain_mobility(chain: Chain, samples: int = 20, seed: int = 0, rows: int = 6) -> int:
+    """`mobility` of a table that is numbers already; of the tool point with the first three rows only."""
+    q = np.random.default_rng(seed).uniform(-1.0, 1.0, (samples, chain.joints))
+    return int(_rank(chain_jacobian(chain, q)[:, :rows]).max())
 
 
 def two_link_determinant(l1: Any, l2: Any, t2: Any) -> Any:

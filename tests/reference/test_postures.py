@@ -351,9 +351,9 @@ def test_a_robot_without_inverse_model_says_why():
         robots.PUMA_PRINTED.inverse(np.eye(4))
     half = np.pi / 2
     rows = [(0, 0, 0, 0.09, None), (0, 0, half, 0, None), (0, -0.42, 0, 0, None)]
-    rows += [(0, -0.39, 0, 0.11, None), (0, 0, half, 0.09, None), (0, 0, -half, 0.08, None)]
-    with pytest.raises(ValueError, match="UR5 has no inverse model in closed form"):
-        Robot(DHTable(rows, "UR5"), None).inverse(np.eye(4))
+    rows += [(0, -0.39, 0.2, 0.11, None), (0, 0, half, 0.09, None), (0, 0, -half, 0.08, None)]
+    with pytest.raises(ValueError, match="bent UR5 has no inverse model in closed form"):
+        Robot(DHTable(rows, "bent UR5"), None).inverse(np.eye(4))
 
 
 def test_lengths_may_be_letters_or_numbers_by_place_or_name():
