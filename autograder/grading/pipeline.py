@@ -10,7 +10,7 @@ guest: the same plug-ins, in the same order, give the same gradebook whether our
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import closing, contextmanager
 from dataclasses import replace
@@ -20,7 +20,8 @@ from nbgrader.preprocessors import AssignLatePenalties
 
 from autograder.sandbox import cancel_runs, sweep
 
-from .changes import by_hand, moved, points_given
+from .cells import check_cells, counts_for_everybody
+from .changes import Given, by_hand, given, moved
 from .collecting.receipts import read_receipts, receipts_folder
 from .course import Course, convert
 from .errors import CourseError, in_words
@@ -86,8 +87,8 @@ def grade(
                 _write_pages(course, student, force=False)
         if status[student] == "unchanged":
             progress(student)
-    points = {
-        student: points_given(graded_notebooks(course, student, exercise))
+    earlier = {
+        student: given(graded_notebooks(course, student, exercise))
         for student, what in status.items()
         if what == "graded" and student in stored
     }
@@ -110,6 +111,7 @@ def grade(
         Result(terminal_text(name), exercise, "failed", remarks=(reason,))
         for name, reason in course.unusable_folders(exercise).items()
     ]
+    for_everybody = {check for name in names for check in _for_everybody(course, exercise, name)}
     said = _said_elsewhere(course, exercise)
     results = [
         Result(student, exercise, "failed", remarks=(failures[student],))
@@ -118,7 +120,8 @@ def grade(
             read_result(course, stored.get(student, {}), student, exercise, status[student]),
             before.get(student, {}),
             stored.get(student, {}),
-            points.get(student, {}),
+            earlier.get(student, {}),
+            for_everybody,
         )
         for student in students
     ]
@@ -140,11 +143,17 @@ def _compared(
     result: Result,
     before: Mapping[str, StoredNotebook],
     after: Mapping[str, StoredNotebook],
-    points: Mapping[str, float],
+    earlier: Mapping[str, Given],
+    for_everybody: Container[str],
 ) -> Result:
     """A result with what moved since the time before."""
-    kept = by_hand(before, after, points) if result.status == "graded" else ()
-    return replace(result, moved=moved(before, after, points), by_hand=kept)
+    kept = by_hand(before, after, earlier) if result.status == "graded" else ()
+    return replace(result, moved=moved(before, after, earlier, for_everybody), by_hand=kept)
+
+
+def _for_everybody(course: Course, exercise: str, name: str) -> set[str]:
+    nb = nbformat.read(released_path(course.app.coursedir, exercise, name), as_version=4)
+    return {check for check, cell in check_cells(nb).items() if counts_for_everybody(cell)}
 
 
 def _bring_up_dates(course: Course, exercise: str, converter: SubmissionAutograde) -> None:
