@@ -278,6 +278,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     watch.add_argument("exercise", nargs="*", help="exercises to watch (default: all)")
     watch.add_argument(
+        "--poll", action="store_true", help="look for what is new every few seconds: for a folder of the network"
+    )
+    watch.add_argument(
         "--jobs", type=_positive, metavar="N", help="notebooks that run at the same time (default: one per core)"
     )
 
@@ -521,7 +524,7 @@ def _watch(options) -> int:
     there = {exercise: course.students(exercise) for exercise in options.exercise or course.exercises()}
     graded({exercise: students for exercise, students in there.items() if students})
     print(f"watching {course.step('submitted')}; Ctrl-C stops", flush=True)
-    for waiting in arrivals(course, options.exercise):
+    for waiting in arrivals(course, options.exercise, poll=options.poll):
         graded(waiting)
     return 0
 
@@ -643,6 +646,8 @@ def _archive(options) -> int:
                 return 0
         clear(course)
         print("removed; run: autograder release")
+        if (course.root / "term.toml").exists():
+            print("term.toml holds the dates of the last term: change them")
     return 0
 
 

@@ -14,6 +14,8 @@ from .roster import FILE as ROSTER
 from .term import FILE as TERM
 
 _STEPS = ("submitted", "autograded", "feedback", "release", "source")
+_PAGES = ("downloaded", "build/return", "build/reports", "build/term")
+"""Folders of the course, beside nbgrader's own, that hold what people did."""
 _CLEARED = ("submitted", "autograded", "feedback")
 
 
@@ -54,7 +56,8 @@ def clear(course: Course) -> None:
     """Remove what belongs to the term that was archived: gradebook, submissions, pages, receipts and roster."""
     for name in _CLEARED:
         shutil.rmtree(course.step(name), ignore_errors=True)
-    shutil.rmtree(course.root / "downloaded", ignore_errors=True)
+    for name in _PAGES:
+        shutil.rmtree(course.root / name, ignore_errors=True)
     for path in (path_of(course.db_url), course.root / ROSTER):
         if path is not None:
             path.unlink(missing_ok=True)
@@ -63,7 +66,7 @@ def clear(course: Course) -> None:
 def _files(course: Course, *besides: Path) -> Iterator[Path]:
     single = (path_of(course.db_url), course.root / ROSTER, course.root / TERM, course.root / "nbgrader_config.py")
     yield from (path for path in single if path is not None and path.is_file())
-    for folder in (*map(course.step, _STEPS), course.root / "downloaded", course.root / "build/return"):
+    for folder in (*map(course.step, _STEPS), *(course.root / name for name in _PAGES)):
         for path in sorted(folder.rglob("*")):
             if path.is_file() and not path.is_symlink() and path not in besides and path.is_relative_to(course.root):
                 yield path

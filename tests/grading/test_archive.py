@@ -20,6 +20,10 @@ def term(without_kernels, small, course_copy, released):
     (course_copy / "submitted/ann/scara/secret").symlink_to("/etc/passwd")
     with without_kernels():
         assert cli.main(["grade", "scara", "--course", str(course_copy)]) == 0
+    for page in ("term/students/ann.html", "reports/scara/report.html", "return/scara/scara-grades.csv"):
+        (course_copy / "build" / page).parent.mkdir(parents=True)
+        (course_copy / "build" / page).write_text("ann")
+    (course_copy / "build/robots.zip").write_text("for the students")
     return course_copy
 
 
@@ -34,7 +38,8 @@ def test_everything_of_the_term_is_kept(term, tmp_path, capsys):
         assert names >= {
             "gradebook.db", "students.csv", "term.toml", "nbgrader_config.py", "submitted/ann/scara/scara.ipynb",
             "autograded/ann/scara/scara.ipynb", "feedback/ann/scara/scara.html", "exercises/scara/scara.ipynb",
-            "solutions/scara/scara.ipynb",
+            "solutions/scara/scara.ipynb", "build/term/students/ann.html", "build/reports/scara/report.html",
+            "build/return/scara/scara-grades.csv",
         }  # fmt: skip
         assert not [name for name in names if "secret" in name]
         kept.extract("gradebook.db", tmp_path)
@@ -48,6 +53,8 @@ def test_the_next_term_begins_without_the_last_one(term, tmp_path, capsys):
     left = {path.name for path in term.iterdir()}
     assert not left & {"gradebook.db", "submitted", "autograded", "feedback", "students.csv", "downloaded"}
     assert left >= {"solutions", "exercises", "term.toml", "nbgrader_config.py"}
+    assert [path.name for path in (term / "build").iterdir()] == ["robots.zip"]
+    assert "term.toml holds the dates of the last term" in capsys.readouterr().out
     assert cli.main(["release", "scara", "--home", "form", "--course", str(term)]) == 0
 
 

@@ -12,15 +12,16 @@ from autograder.grading.watch import arrivals
 @pytest.fixture
 def quick(monkeypatch):
     monkeypatch.setattr(watch, "QUIET", 50)
+    monkeypatch.setattr(watch, "LOOK", 50)
 
 
-def first(course, act, exercises=()):
+def first(course, act, exercises=(), poll=False):
     """What is told first after `act` is done."""
     stop, found, started = Event(), [], Event()
 
     def listen():
         started.set()
-        for one in arrivals(course, exercises, stop):
+        for one in arrivals(course, exercises, stop, poll):
             found.append(one)
             break
 
@@ -38,7 +39,8 @@ def first(course, act, exercises=()):
     return found[0] if found else None
 
 
-def test_a_notebook_that_arrives_is_told(course_copy, quick, small):
+@pytest.mark.parametrize("poll", [False, True])
+def test_a_notebook_that_arrives_is_told(poll, course_copy, quick, small):
     course = open_course(course_copy)
 
     def act(count):
@@ -46,7 +48,7 @@ def test_a_notebook_that_arrives_is_told(course_copy, quick, small):
         small.hand_in(course_copy, "ben", f"{count}", ".scara.ipynb.part")
         (course_copy / "submitted/readme.txt").write_text(f"{count}")
 
-    assert first(course, act) == {"scara": ["Ann A"]}
+    assert first(course, act, poll=poll) == {"scara": ["Ann A"]}
 
 
 def test_what_belongs_to_other_exercises_is_not_told(course_copy, quick, small):
