@@ -37,6 +37,7 @@ def examine(root: Path) -> Iterator[Finding]:
     yield (sandbox := _sandbox())
     if sandbox.ok:
         yield _trial(root)
+        yield _warm_kernels()
     yield _gradebook(root)
 
 
@@ -102,6 +103,15 @@ def _trial(root: Path) -> Finding:
     released = sorted(root.glob("exercises/*/*.ipynb"))
     fault = find_fault(released, Limits(), "bwrap", (root,))
     return Finding("trial notebook", fault is None, fault or "runs in the sandbox and hands in an answer", SETUP)
+
+
+def _warm_kernels() -> Finding:
+    """After the trial notebook: how its kernel started."""
+    from autograder.sandbox import why_cold
+
+    reason = why_cold()
+    slow = f"not here, each notebook takes some seconds longer: {reason}"
+    return Finding("warm kernels", True, slow if reason else "kernels start warm")
 
 
 def _gradebook(root: Path) -> Finding:

@@ -5,6 +5,11 @@ Two things are known and left as they are. Sandboxes that run at the same time c
 points go that way faster than by talking before the exercise. And memory and processor time are counted by looking at
 the processes every fifth of a second, not by control groups, which only root or a user with a delegated group can
 make; a sandbox can go beyond a limit by what it does in that time.
+
+Kernels are children of one warm parent where that can be had. Of each other they know what all children of it have in
+common: where its libraries and objects lie in memory, and the order in which sets of text are gone through (the seed
+of Python's hashes). Nothing of a student's and nothing of a solution is ever in the parent's memory, and whatever a
+kernel writes is its own.
 """
 
 from __future__ import annotations
@@ -19,6 +24,7 @@ if TYPE_CHECKING:
     from .client import CellRun, KernelStartError
     from .run import Run, cancel_runs, run_notebook
     from .scratch import sweep
+    from .warm import why_cold
 from .workdir import NotPlain, TooLarge, plain_bytes, plain_files, read_folders
 
 __all__ = [
@@ -36,6 +42,7 @@ __all__ = [
     "read_folders",
     "run_notebook",
     "sweep",
+    "why_cold",
 ]
 
 _MODULES = {
@@ -47,6 +54,7 @@ _MODULES = {
     "cancel_runs": "run",
     "run_notebook": "run",
     "sweep": "scratch",
+    "why_cold": "warm",
 }
 
 

@@ -20,6 +20,7 @@ import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from typing import Any
 
 import psutil
 
@@ -36,6 +37,10 @@ _PROBE_SECONDS = 300  # a busy machine may need long for it
 _SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32")
 _CONFIGURATION = ("/etc/ld.so.cache", "/etc/fonts", "/etc/localtime", "/etc/alternatives", "/etc/mime.types")
 _ENVIRONMENT_PARTS = ("bin", "lib", "lib64", "share", "ssl", "pyvenv.cfg")
+# What root's kernel needs to become an ordinary user's, and what a warm parent needs to make its children's sandboxes;
+# an ordinary user's parent gives each child a user namespace for that.
+_ENTERING = ("CAP_SETUID", "CAP_SETGID")
+_PARENTING = (*_ENTERING, "CAP_SETPCAP", "CAP_SYS_ADMIN", "CAP_NET_ADMIN")
 _NEVER_SHOWN = ("/usr/local/etc",)  # Jupyter and nbgrader configuration may hold passwords
 
 _INSTALL = "install it: apt-get install bubblewrap (Fedora: dnf install bubblewrap)"
@@ -131,6 +136,7 @@ def mounts(limits: Limits, hidden: Iterable[str] = ()) -> list[str]:
         for path in dict.fromkeys((*_NEVER_SHOWN, *own_private_folders(), *map(os.path.realpath, hidden)))
         if os.path.isdir(path) and any(_inside(path, other) for other in visible)
     ]
+    masks = [path for path in masks if not any(_inside(path, other) for other in masks)]
     needed = [place for place in places if any(_inside(place[1], mask) for mask in masks)]
     # bwrap gives the folders above a mount the mode 0700: only root could pass through them.
     above = {str(parent) for path in visible for parent in Path(path).parents} - {"/"}
@@ -200,15 +206,30 @@ def _resource_limits(limits: Limits, uid: int | None) -> dict[str, tuple[int, in
     return bounds | {"RLIMIT_CPU": (seconds, seconds + 5)}
 
 
-def _namespaces(uid: int | None) -> list[str]:
-    """bwrap arguments for namespaces and privileges; uid is given when root starts the sandbox."""
+def _namespaces(capabilities: Iterable[str]) -> list[str]:
+    """bwrap arguments for namespaces and privileges; root's sandbox keeps these capabilities, another user's none."""
     common = [
         "--unshare-ipc", "--unshare-pid", "--unshare-net", "--unshare-uts", "--unshare-cgroup-try",
         "--hostname", "sandbox", "--die-with-parent", "--new-session", "--cap-drop", "ALL",
     ]  # fmt: skip
-    if uid is None:
+    if os.geteuid() != 0:
         return [*common, "--unshare-user", "--uid", str(_STUDENT_UID), "--gid", str(_STUDENT_UID)]
-    return [*common, "--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID"]
+    return [*common, *(word for name in capabilities for word in ("--cap-add", name))]
+
+
+def _plan(argv: Sequence[str], limits: Limits, files: Mapping[str, bytes]) -> dict[str, Any]:
+    """Return what a kernel is told at its start: its command, the user to be, files by their names below the home, bounds."""
+    uid = unused_uid() if os.geteuid() == 0 else None
+    return {
+        "argv": list(argv),
+        "uid": uid,
+        "home": HOME,
+        "cwd": WORK,
+        "files": dict(files),
+        "limits": _resource_limits(limits, uid),
+        "nice": _NICE,
+        "env": _kernel_environment(),
+    }
 
 
 def start(
@@ -238,31 +259,48 @@ def start(
     SandboxUnavailable
         If there is no bubblewrap, no /proc, or no filter of system calls for this machine.
     """
+    arguments = [*_namespaces(_ENTERING), *mounts(limits, hidden)]
+    with _handed_over(_filter()) as filter_file:
+        arguments += ["--seccomp", str(filter_file)]
+        return _bwrap(arguments, _plan(argv, limits, files or {}), (filter_file, *pass_fds))
+
+
+def start_parent(
+    argv: Sequence[str], *, files: Mapping[str, bytes], hidden: Iterable[str], pass_fds: Sequence[int]
+) -> subprocess.Popen[bytes]:
+    """Start a command that makes sandboxes for others inside its own, as `start` otherwise.
+
+    It keeps what it needs for that and has no bounds: it must not run anything of a student's.
+    """
+    unbounded = _plan(argv, Limits(), files) | {"uid": None, "limits": {}, "nice": 0}
+    return _bwrap([*_namespaces(_PARENTING), *mounts(Limits(), hidden)], unbounded, pass_fds)
+
+
+@contextmanager
+def child_plan(argv: Sequence[str], *, limits: Limits, files: Mapping[str, bytes]) -> Iterator[int]:
+    """A descriptor of what the child of a warm parent is told: its plan, and what bwrap does for others."""
+    private = dict.fromkeys(PRIVATE, limits.disk)
+    with _handed_over(marshal.dumps(_plan(argv, limits, files) | {"private": private, "filter": _filter()})) as told:
+        yield told
+
+
+def _filter() -> bytes:
+    """Return the filter of system calls for this machine; `SandboxUnavailable` if there is none."""
+    try:
+        return seccomp.program()
+    except seccomp.NoFilter as reason:
+        raise SandboxUnavailable(f"{reason}; grade on one of those") from None
+
+
+def _bwrap(arguments: Sequence[str], plan: dict[str, Any], pass_fds: Sequence[int]) -> subprocess.Popen[bytes]:
+    """Start bubblewrap with these arguments, and in it the command of a plan."""
     bwrap = shutil.which("bwrap")
     if bwrap is None:
         raise SandboxUnavailable(f"bubblewrap (bwrap) is not installed; {_INSTALL}")
     if not os.path.exists("/proc/self/uid_map"):
         raise SandboxUnavailable("/proc is not mounted here; as root mount it: mount -t proc proc /proc")
-    uid = unused_uid() if os.geteuid() == 0 else None
-    plan = {
-        "uid": uid,
-        "home": HOME,
-        "cwd": WORK,
-        "files": dict(files or {}),
-        "limits": _resource_limits(limits, uid),
-        "nice": _NICE,
-        "argv": list(argv),
-        "env": _kernel_environment(),
-    }
-    arguments = [*_namespaces(uid), *mounts(limits, hidden)]
-    try:
-        filters = seccomp.program()
-    except seccomp.NoFilter as reason:
-        raise SandboxUnavailable(f"{reason}; grade on one of those") from None
     with ExitStack() as stack:
         plan_file = stack.enter_context(_handed_over(marshal.dumps(plan)))
-        filter_file = stack.enter_context(_handed_over(filters))
-        arguments += ["--seccomp", str(filter_file)]
         argument_file = stack.enter_context(_handed_over(b"".join(os.fsencode(word) + b"\0" for word in arguments)))
         enter = Path(__file__).with_name("enter.py").read_text()
         python = [sys.executable, "-I", "-S", "-c", enter, str(plan_file)]
@@ -271,7 +309,7 @@ def start(
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
-            pass_fds=(argument_file, filter_file, plan_file, *pass_fds),
+            pass_fds=(argument_file, plan_file, *pass_fds),
             # The first process of a sandbox keeps the environment it was started with, in sight of the others.
             env={},
             start_new_session=True,

@@ -1,9 +1,9 @@
 """First step inside the sandbox: put the files in place, take on the limits, become the kernel.
 
-This module is never imported. Its text is handed to ``python -I -S -c`` under
+The grader never imports this module. Its text is handed to ``python -I -S -c`` under
 bubblewrap, because nothing of this package may be visible in there. The plan
 arrives on the descriptor named by the first argument, marshalled by the trusted
-side, which built it.
+side, which built it. Children of a warm parent take the same step, see `warm_parent`.
 """
 
 import marshal
@@ -26,9 +26,8 @@ def give_way(nice):
     os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
 
 
-def main():
-    with open(int(sys.argv[1]), "rb") as file:
-        plan = marshal.load(file)
+def settle(plan):
+    """Take on the user, put the files in place, go to the work folder and take on the limits."""
     give_way(plan["nice"])
     if plan["uid"] is not None:
         # Root is exempt from the limit on processes, so the kernel must not be root.
@@ -41,7 +40,14 @@ def main():
     os.chdir(plan["cwd"])
     for name, bounds in plan["limits"].items():
         resource.setrlimit(getattr(resource, name), bounds)
+
+
+def main():
+    with open(int(sys.argv[1]), "rb") as file:
+        plan = marshal.load(file)
+    settle(plan)
     os.execve(plan["argv"][0], plan["argv"], plan["env"])
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -1,6 +1,6 @@
 """The kernel's own start-up: ipykernel on sockets that it inherited.
 
-This module is never imported; its text is handed to ``python -c``. The
+The grader never imports this module; its text is handed to ``python -c``. The
 "ports" in the kernel's connection file are descriptors of listening sockets
 that the trusted side opened, so no folder with sockets has to be shared with
 the kernel, and no name in the file system is its to replace.
@@ -36,4 +36,10 @@ class InheritedSocketsApp(IPKernelApp):
         """No heartbeat: the process itself is watched from outside."""
 
 
-InheritedSocketsApp.launch_instance()
+def launch(argv):
+    """Be a kernel with these options of the command line, until it ends."""
+    InheritedSocketsApp.launch_instance(argv)
+
+
+if __name__ == "__main__":
+    launch(sys.argv[1:])

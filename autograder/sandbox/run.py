@@ -164,6 +164,7 @@ def run_notebook(
     mode: Literal["bwrap", "none"] = "bwrap",
     followup: Followup | None = None,
     hidden: tuple[Path, ...] = (),
+    warm: bool = True,
 ) -> Run:
     """Run a notebook in a sandbox and return what came of each code cell; the notebook itself is not changed.
 
@@ -183,6 +184,8 @@ def run_notebook(
         the status of its cell.
     hidden : tuple of Path
         Further folders that a kernel must not see.
+    warm : bool
+        Whether a kernel may be the child of a warm parent, see `warm`; where there can be none it starts cold anyhow.
 
     Raises
     ------
@@ -200,6 +203,7 @@ def run_notebook(
         "files": dict(files),
         "sandboxed": mode == "bwrap",
         "hidden": [str(folder) for folder in hidden],
+        "warm": warm,
     }
     session = _Session(copy.deepcopy(nb), limits, options)
     if not _loop_is_running():

@@ -125,7 +125,8 @@ class FamilyWatch(threading.Thread):
     pid : int
         Its first process, which nobody has waited for.
     outer : int
-        How many of its processes stand outside the sandbox or keep it, so that it cannot stop them.
+        How many of its processes stand outside the sandbox or keep it, so that it cannot stop them; what they hold
+        is not the notebook's.
     places : iterable of str
         Memory file systems whose content counts.
     limit : int or None
@@ -159,7 +160,7 @@ class FamilyWatch(threading.Thread):
             members = self._look()
             if self._limit is not None:
                 # Nothing is left of a family that is gone: what it held before tells why.
-                self.held = memory_in_use(members, self._places, above=self._limit) or self.held
+                self.held = memory_in_use(members[self._outer :], self._places, above=self._limit) or self.held
                 if self.held > self._limit:
                     self._exceeded()
                     return
@@ -177,7 +178,7 @@ class FamilyWatch(threading.Thread):
 
     def memory_now(self) -> int:
         """Return the bytes of memory that the family holds."""
-        return memory_in_use(family(self._root), self._places)
+        return memory_in_use(family(self._root)[self._outer :], self._places)
 
     def _look(self) -> list[psutil.Process]:
         with self._looking:

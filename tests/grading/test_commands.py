@@ -303,7 +303,17 @@ def test_the_repositorys_own_bundle_holds_no_solution(small, tmp_path):
 def test_doctor_finds_everything_here(small, capsys):
     assert run(small.REPOSITORY, "doctor") == 0
     out = capsys.readouterr().out
-    for what in ("Python", "packages", "autograder", "dhkit", "alembic", "kernel", "sandbox", "gradebook"):
+    for what in (
+        "Python",
+        "packages",
+        "autograder",
+        "dhkit",
+        "alembic",
+        "kernel",
+        "sandbox",
+        "warm kernels",
+        "gradebook",
+    ):
         assert f"ok       {what}: " in out
 
 

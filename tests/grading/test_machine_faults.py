@@ -324,8 +324,8 @@ def scores(results):
 def test_whose_processor_is_taken_away_runs_again_alone(graded, honest, processor, monkeypatch):
     run, run_alone, runs = SandboxExecute.run, SandboxExecute.run_alone, []
 
-    def noted(self, nb, folder, released, student, course):
-        execution = run(self, nb, folder, released, student, course)
+    def noted(self, nb, folder, released, student, course, **how):
+        execution = run(self, nb, folder, released, student, course, **how)
         runs.append((student, execution.starved))
         return execution
 

@@ -1,6 +1,7 @@
 """Runs lists of code cells for the sandbox tests."""
 
 import os
+from functools import partial
 
 import nbformat
 import psutil
@@ -35,10 +36,20 @@ def run_cells():
     return run
 
 
+BOTH = ("test_sandbox_isolation", "test_sandbox_limits")
+
+
+def pytest_generate_tests(metafunc):
+    """What bounds and encloses a kernel is tried on warm and on cold ones."""
+    if "sandboxed" in metafunc.fixturenames:
+        starts = ("warm", "cold") if metafunc.module.__name__.endswith(BOTH) else ("warm",)
+        metafunc.parametrize("sandboxed", starts, indirect=True)
+
+
 @pytest.fixture
-def sandboxed(needs_sandbox, run_cells):
+def sandboxed(request, needs_sandbox, run_cells):
     """run_cells under bubblewrap."""
-    return run_cells
+    return partial(run_cells, warm=request.param == "warm")
 
 
 @pytest.fixture

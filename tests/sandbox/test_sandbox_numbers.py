@@ -7,10 +7,9 @@ import sys
 
 import psutil
 import pytest
-from jupyter_client.kernelspec import KernelSpec
 
-from autograder.sandbox import provisioner, watch
-from autograder.sandbox.provisioner import SandboxProvisioner
+from autograder.sandbox import cold, watch
+from autograder.sandbox.cold import ColdKernel
 
 PASSES_ON = """
 import subprocess, sys
@@ -54,36 +53,30 @@ def stranger():
     found.process.communicate()
 
 
-def kernel_of(process, sandboxed):
-    found = SandboxProvisioner(kernel_id="k", kernel_spec=KernelSpec(), sandboxed=sandboxed)
-    found.process = process
-    return found
-
-
-@pytest.mark.parametrize("sandboxed", [True, False], ids=["bwrap", "none"])
-def test_a_stranger_with_the_number_of_a_kernel_that_is_gone_lives_on(stranger, sandboxed):
-    process = subprocess.Popen(["true"], start_new_session=True)
+@pytest.mark.parametrize("under_bwrap", [True, False], ids=["bwrap", "none"])
+def test_a_stranger_with_the_number_of_a_kernel_that_is_gone_lives_on(stranger, under_bwrap):
+    process = subprocess.Popen(["true"], stdout=subprocess.PIPE, start_new_session=True)
     process.wait()
     process.pid = stranger.process.pid
-    kernel = kernel_of(process, sandboxed)
-    kernel._kill_family()
-    kernel.release()
+    kernel = ColdKernel(process, under_bwrap)
+    kernel.kill()
+    kernel.close()
     assert stranger.lives()
 
 
 def test_a_stranger_with_the_number_of_a_child_lives_on(stranger, monkeypatch):
     """The child that was seen is gone at the moment of the signal, and its number was given again."""
-    with subprocess.Popen(["sleep", "600"], start_new_session=True) as process:
+    with subprocess.Popen(["sleep", "600"], stdout=subprocess.PIPE, start_new_session=True) as process:
         monkeypatch.setattr(psutil.Process, "children", lambda self: [stranger.child])
-        kernel_of(process, sandboxed=True)._kill_family()
+        ColdKernel(process, sandboxed=True).kill()
         process.kill()
     assert stranger.lives()
 
 
 def test_a_child_is_killed_and_no_one_elses(stranger):
-    provisioner._kill_child(stranger.child.pid, os.getpid())
+    cold._kill_child(stranger.child.pid, os.getpid())
     assert stranger.lives()
-    provisioner._kill_child(stranger.child.pid, stranger.process.pid)
+    cold._kill_child(stranger.child.pid, stranger.process.pid)
     assert not stranger.lives()
 
 
@@ -94,8 +87,8 @@ def test_what_a_kernel_leaves_behind_in_its_group_ends_with_it():
     with process:
         child = psutil.Process(int(process.stdout.readline()))
         process.send_signal(signal.SIGKILL)
-        kernel = kernel_of(process, sandboxed=False)
-        while kernel._ended(process) is None:
+        kernel = ColdKernel(process, sandboxed=False)
+        while kernel.poll() is None:
             pass
     child.wait(60)
     assert process.returncode == -signal.SIGKILL

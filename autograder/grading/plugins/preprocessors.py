@@ -76,17 +76,19 @@ class SandboxExecute(NbGraderPreprocessor):
         """The limits as they are configured; `ValueError` for one that makes no sense."""
         return Limits(**{limit.name: getattr(self, limit.name) for limit in fields(Limits)})
 
-    def run(self, nb: NotebookNode, folder: Path, released: Path, student: str, course: Path) -> Execution:
+    def run(
+        self, nb: NotebookNode, folder: Path, released: Path, student: str, course: Path, warm: bool = True
+    ) -> Execution:
         """Run a restored notebook with the files of its folder and of the released one beside it.
 
-        The sandbox does not show the `course`.
+        The sandbox does not show the `course`. A `warm` kernel may share its parent with others.
         """
-        return execute(nb, (folder, released.parent), student, self.limits, cast(Mode, self.mode), (course,))
+        return execute(nb, (folder, released.parent), student, self.limits, cast(Mode, self.mode), (course,), warm)
 
     def run_alone(self, nb: NotebookNode, folder: Path, released: Path, student: str, course: Path) -> Execution:
         """Run a notebook for the second and last time, because the first time ended in doubt.
 
-        The caller sees to it that nobody else's runs at the same time.
+        The caller sees to it that nobody else's runs at the same time; its kernel shares nothing with any other.
 
         Raises
         ------
@@ -94,14 +96,14 @@ class SandboxExecute(NbGraderPreprocessor):
             If the machine is to blame.
         """
         return confirm(
-            lambda: self.run(nb, folder, released, student, course),
+            lambda: self.run(nb, folder, released, student, course, warm=False),
             lambda lasting: self.find_fault([released], course, lasting),
         )
 
     def find_fault(self, released: Sequence[Path], course: Path, lasting: float | None = None) -> str | None:
         """Say why this machine cannot run what the `released` notebooks need, None if it can (see `trial`)."""
         settings = (released, self.limits, cast(Mode, self.mode), (course,))
-        return trial.find_fault_once(*settings) if lasting is None else trial.find_fault(*settings, lasting)
+        return trial.find_fault_once(*settings) if lasting is None else trial.find_fault(*settings, lasting, warm=False)
 
     def _run_in_place(self, nb: NotebookNode, *whose: Any) -> Execution:
         """Run a notebook that was not run ahead."""

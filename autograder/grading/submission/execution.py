@@ -66,7 +66,13 @@ class Execution:
 
 
 def execute(
-    nb: NotebookNode, folders: Iterable[Path], student: str, limits: Limits, mode: Mode, hidden: tuple[Path, ...] = ()
+    nb: NotebookNode,
+    folders: Iterable[Path],
+    student: str,
+    limits: Limits,
+    mode: Mode,
+    hidden: tuple[Path, ...] = (),
+    warm: bool = True,
 ) -> Execution:
     """Run the restored notebook `nb` of `student`.
 
@@ -78,6 +84,8 @@ def execute(
         ``"bwrap"`` or ``"none"``.
     hidden : tuple of Path
         Folders of the host that the sandbox must not show, the course's own above all.
+    warm : bool
+        Whether its kernel may share a parent with others.
 
     Raises
     ------
@@ -102,7 +110,7 @@ def execute(
     folders = list(folders)
     files, left_out = read_folders(folders, limits.disk // 2)
     shut = (*hidden, *folders)
-    run = run_notebook(_with_kit(nb), files=files, limits=limits, mode=mode, followup=probe, hidden=shut)
+    run = run_notebook(_with_kit(nb), files=files, limits=limits, mode=mode, followup=probe, hidden=shut, warm=warm)
     counts = {index: count for count, index in enumerate(sorted(run.cells), 1)}
     outputs = {index: inert_outputs(cell.outputs, counts[index]) for index, cell in run.cells.items()}
     checks = {index: name for index in run.cells if (name := check_name(nb.cells[index]))}

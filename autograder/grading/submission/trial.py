@@ -61,7 +61,12 @@ def _imports(source: str) -> list[str]:
 
 
 def find_fault(
-    released: Iterable[Path], limits: Limits, mode: Mode, hidden: tuple[Path, ...] = (), lasting: float = 0.0
+    released: Iterable[Path],
+    limits: Limits,
+    mode: Mode,
+    hidden: tuple[Path, ...] = (),
+    lasting: float = 0.0,
+    warm: bool = True,
 ) -> str | None:
     """Run a trial notebook, once more if it fails.
 
@@ -73,6 +78,8 @@ def find_fault(
         As for students' notebooks, see `execution.execute`.
     lasting : float
         Seconds that its kernel must stay alive at least.
+    warm : bool
+        Whether its kernel may share a parent with others.
 
     Returns
     -------
@@ -82,8 +89,8 @@ def find_fault(
     paths = list(released)
     nb = trial_notebook([nbformat.read(path, as_version=4) for path in paths], lasting)
     files, _ = read_folders((path.parent for path in paths), limits.disk // 2)
-    fault = _fault(nb, files, limits, mode, hidden)
-    return fault and _fault(nb, files, limits, mode, hidden)
+    settings = (nb, files, limits, mode, hidden, warm)
+    return _fault(*settings) and _fault(*settings)
 
 
 def find_fault_once(released: Sequence[Path], limits: Limits, mode: Mode, hidden: tuple[Path, ...]) -> str | None:
@@ -100,10 +107,10 @@ _went_well: set[tuple] = set()
 
 
 def _fault(
-    nb: NotebookNode, files: Mapping[str, bytes], limits: Limits, mode: Mode, hidden: tuple[Path, ...]
+    nb: NotebookNode, files: Mapping[str, bytes], limits: Limits, mode: Mode, hidden: tuple[Path, ...], warm: bool
 ) -> str | None:
     try:
-        run = run_notebook(nb, files=files, limits=limits, mode=mode, hidden=hidden)
+        run = run_notebook(nb, files=files, limits=limits, mode=mode, hidden=hidden, warm=warm)
     except SandboxUnavailable as error:
         return f"no sandbox: {error}"
     except KernelStartError as error:
