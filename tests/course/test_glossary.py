@@ -83,3 +83,9 @@ def test_text_stands_without_the_documents_and_a_box_names_its_source(path):
                     r"> \*\*Printed in (MECA 953|the EPFL notes|the DH-m notes \(Romanian\)|the report|the s600 tutorial)(?!\w)",
                     box,
                 ), f"{cell.id}: {box}"
+
+
+@pytest.mark.parametrize("path", sorted(COURSE.parent.glob("solutions/*/*.ipynb")), ids=lambda path: path.stem)
+def test_statements_of_exercises_name_what_they_quote(path):
+    """Of "the slides" nobody but their author knows which."""
+    assert not SPEAKS_OF_A_DOCUMENT.search(prose(path))
