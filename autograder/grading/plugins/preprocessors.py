@@ -7,7 +7,7 @@ result (`SandboxExecute`, `JudgeAnswers`). ``nbgrader generate_feedback`` conver
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import fields, replace
 from pathlib import Path
@@ -27,6 +27,7 @@ from dhkit.public import questions as public_questions
 
 from ..cells import (
     CheckRecord,
+    answer_id,
     check_cells,
     check_name,
     check_record,
@@ -171,13 +172,16 @@ class Summarize(NbGraderPreprocessor):
             "score": stored.score - stored.penalty, "max_score": stored.max_score, "late_penalty": stored.penalty
         }  # fmt: skip
         resources["autograder"] = {
-            "questions": [_summary(cell) for cell in check_cells(nb).values()],
+            "questions": [
+                *(_summary(cell, stored) for cell in check_cells(nb).values()),
+                *_open_problems(check_cells(nb), stored),
+            ],
             "said": (*filter(None, [stored.lateness]), *notebook_record(nb).remarks()),
         }
         return nb, resources
 
 
-def _summary(check: NotebookNode) -> dict:
+def _summary(check: NotebookNode, stored: StoredNotebook) -> dict:
     marks = check.metadata.nbgrader
     known, record = public_questions().get(question_id(marks["grade_id"])), check_record(check)
     feedback = next(
@@ -189,5 +193,26 @@ def _summary(check: NotebookNode) -> dict:
         "score": marks["score"],
         "points": marks["points"],
         "note": record.note if record else "",
-        "line": " ".join(feedback.split()),
+        "line": " ".join([*feedback.split(), *_by_hand(stored, marks["grade_id"], answer_id(marks["grade_id"]))]),
     }
+
+
+def _open_problems(checks: Container[str], stored: StoredNotebook) -> Iterator[dict]:
+    """What no program marks, where somebody did."""
+    for name, grade in stored.grades.items():
+        said = _by_hand(stored, name, name)
+        if name not in checks and (grade.score or said):
+            yield {
+                "grade_id": name, "title": "Open problem", "score": grade.score, "points": grade.max_score,
+                "note": "", "line": " ".join(said),
+            }  # fmt: skip
+
+
+def _by_hand(stored: StoredNotebook, check: str, commented: str) -> list[str]:
+    """That points were typed by hand, and what was said with them, as words."""
+    grade, found = stored.grades.get(check), stored.comments.get(commented)
+    typed = grade is not None and grade.manual is not None and grade.max_score > 0
+    return [
+        *(["*These points were given by hand.*"] if typed else []),
+        *(["**Comment:**", *found.manual.split()] if found and found.manual else []),
+    ]
