@@ -25,7 +25,10 @@ class PrivateFolder:
         sweep()
         while True:
             self.path = Path(tempfile.mkdtemp(prefix=PREFIX, dir=base))
-            self._lock = os.open(self.path, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+            try:
+                self._lock = os.open(self.path, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+            except FileNotFoundError:  # swept away already
+                continue
             with contextlib.suppress(OSError):  # without locks nothing is swept either
                 fcntl.flock(self._lock, fcntl.LOCK_SH)
             if self.path.exists():  # else it was swept away before it could be locked

@@ -28,6 +28,7 @@ from .limits import Limits
 
 FIRST_DOOR = 4  # the number that the first of a kernel's sockets has in the kernel, see `warm_parent`
 _FOLDER = ".warm"  # in the parent's own home
+_MODULES = ("numpy", "sympy", "matplotlib.pyplot", "ipywidgets", "dhkit.drawing", "dhkit.pictures")
 _TEXTS = ("warm_parent", "enter", "kernel")
 _IDLE_SECONDS = 60.0  # after which a parent that has no kernel ends
 _START_SECONDS = 300.0  # on a busy machine
@@ -126,7 +127,7 @@ class WarmParent:
         """Start the process, stay for as long as it lives, and see to it that nothing of it is left."""
         texts = {f"{_FOLDER}/{name}.py": Path(__file__).with_name(f"{name}.py").read_bytes() for name in _TEXTS}
         number = self._theirs.fileno()
-        command = [sys.executable, f"{bubblewrap.HOME}/{_FOLDER}/warm_parent.py", str(number)]
+        command = [sys.executable, f"{bubblewrap.HOME}/{_FOLDER}/warm_parent.py", str(number), *_MODULES]
         try:
             files = {**texts, **font_list()}
             process = bubblewrap.start_parent(command, files=files, hidden=self._hidden, pass_fds=(number,))

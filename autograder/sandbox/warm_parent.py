@@ -12,6 +12,7 @@ the first process inside, which takes all others with it when it ends, and the k
 import ctypes
 import fcntl
 import gc
+import importlib
 import io
 import marshal
 import os
@@ -50,17 +51,17 @@ def prctl(option, *values):
     return call("prctl", option, *map(ctypes.c_ulong, (*values, *[0] * (4 - len(values)))))
 
 
-def warm_up():
-    """Load what notebooks import, and do once what is slow the first time: fonts, formulas, SymPy's caches."""
-    import ipywidgets  # noqa: F401
-    import matplotlib.pyplot  # noqa: F401 - without a figure: its backend is chosen in the kernel
+def warm_up(modules):
+    """Load what notebooks import, and do once what is slow the first time: fonts, formulas, SymPy's caches.
+
+    Pyplot is not asked for a figure: its backend is chosen in the kernel.
+    """
+    for module in modules:
+        importlib.import_module(module)
     import numpy
     import sympy
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
-
-    import dhkit.drawing
-    import dhkit.pictures  # noqa: F401
 
     figure = Figure()
     FigureCanvasAgg(figure)
@@ -249,7 +250,7 @@ def in_child(run, *arguments):
 def main():
     control = socket.socket(fileno=int(sys.argv[1]))
     sys.path.remove(os.path.dirname(__file__))
-    warm_up()
+    warm_up(sys.argv[2:])
     if (threads := len(os.listdir("/proc/self/task"))) != 1:
         raise RuntimeError(f"{threads} threads after the imports: a fork would lose all but one")
     user, group = os.getuid(), os.getgid()

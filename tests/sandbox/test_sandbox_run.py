@@ -322,3 +322,18 @@ def test_a_kernel_that_does_not_start_is_not_the_students_fault(run_cells, monke
     monkeypatch.setattr(provisioner.sys, "executable", "/bin/false")
     with pytest.raises(sandbox.KernelStartError):
         run_cells("1", mode="none")
+
+
+def test_a_new_folder_that_is_swept_away_at_once_is_made_again(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    make, made = tempfile.mkdtemp, []
+
+    def then_swept(**options):
+        made.append(make(**options))
+        if len(made) == 1:
+            scratch.sweep()
+        return made[-1]
+
+    monkeypatch.setattr(tempfile, "mkdtemp", then_swept)
+    with scratch.PrivateFolder() as own:
+        assert own.exists() and len(made) == 2
