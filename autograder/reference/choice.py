@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .decoupled import Decoupled, PointArm
 from .elbow import ElbowArm, WristAlone, WristedArm
+from .general import GeneralArm
 from .inverse import InverseModel
 from .pen import PenArm
 from .planar_arms import PlanarArm, Scara
@@ -18,6 +19,7 @@ CLASSES: dict[str, type[InverseModel]] = {
     "pen robot": PenArm,
     "arm of three joints for a point": PointArm,
     "decoupled arm": Decoupled,
+    "arm of six turns": GeneralArm,
 }
 """The classes of robots that have a closed-form inverse model, by their names."""
 
@@ -41,4 +43,5 @@ def _misfit(model: type[InverseModel], table: DHTable) -> str:
 
 def chosen(table: DHTable) -> type[InverseModel] | None:
     """The class that fits a table, None where none does."""
-    return next((CLASSES[name] for name, lacking in misfits(table).items() if not lacking), None)
+    _ = table.chain
+    return next((model for model in CLASSES.values() if not _misfit(model, table)), None)

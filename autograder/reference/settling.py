@@ -23,6 +23,8 @@ _STEPS = 12
 _SINGULAR = 1e-5  # smallest singular value of the Jacobian, per largest, where branches merge
 _SAME = 1e-7  # radians (sizes of the arm) between two postures that are one; more where branches merge
 _BLURRED = 1e-4
+_ASIDE = 1e-2  # radians that a singular posture is moved to see whether that is a family
+_CLOSED = 1e-11  # of the pose then: a fold misses it by the square
 
 
 def settled(
@@ -37,7 +39,8 @@ def settled(
 ) -> tuple[Branches, np.ndarray]:
     """Postures from candidates q (n, K, N) for poses (N, 4, 4); which ones are worth a try says valid (K, N).
 
-    Also which candidates are postures, (K, N), of which `Branches.valid` counts every one once. Where there is none, `Branches.excess` is how far the best of all candidates stays from the pose, in
+    Also which candidates are postures, (K, N), of which `Branches.valid` counts every one once. Where there is none,
+    `Branches.excess` is how far the best of all candidates stays from the pose, in
     metres (radians, times the size of the arm).
     """
     task = Task(chain, size, 3 if only_point else 6)
@@ -132,6 +135,13 @@ class Task:
         result = np.zeros_like(flags)
         result[branch, pose] = np.where(singular, np.where(free, found & ~Flag.LIMIT, Flag.STRETCHED), 0)
         return result
+
+    def loose(self, q: np.ndarray, T: np.ndarray) -> np.ndarray:
+        """Whether singular postures q (R, n) of poses T can move without moving the tool, (R,)."""
+        way = np.linalg.svd(self.jacobian(q))[2][:, -1]
+        aside, error = self.approached(q + _ASIDE * self.unit * way, T)
+        moved = (((aside - q) / self.unit) * way).sum(axis=1)
+        return (error <= self.size * _CLOSED) & (np.abs(moved) > _ASIDE / 2)
 
     def repeated(self, q: np.ndarray, reached: np.ndarray, flags: np.ndarray) -> np.ndarray:
         """Whether an earlier branch is the same posture, (K, N)."""
