@@ -500,32 +500,31 @@ def _grade(options) -> int:
 
 
 def _watch(options) -> int:
+    from datetime import datetime
+
     from autograder.grading.errors import CourseError
     from autograder.grading.pipeline import grade
-    from autograder.grading.table import changes_table, class_table, progress_bar
+    from autograder.grading.table import progress_bar, result_line
     from autograder.grading.watch import arrivals
 
     course, jobs = _course(options), options.jobs or os.cpu_count() or 1
     for exercise in options.exercise:
         course.require(exercise)
 
-    def graded(waiting) -> None:
+    print(f"watching {course.step('submitted')}; Ctrl-C stops", flush=True)
+    unusable: set[str] = set()
+    for waiting in arrivals(course, options.exercise, poll=options.poll):
         for exercise, students in waiting.items():
             try:
                 with progress_bar(f"grading {exercise}", len(students)) as progress:
                     results = grade(course, exercise, students, jobs, False, progress)
             except CourseError as reason:
                 print(f"autograder: {exercise}: {reason}", file=sys.stderr)
-            else:
-                if new := [result for result in results if result.status != "unchanged"]:
-                    class_table(new)
-                changes_table(results)
-
-    there = {exercise: course.students(exercise) for exercise in options.exercise or course.exercises()}
-    graded({exercise: students for exercise, students in there.items() if students})
-    print(f"watching {course.step('submitted')}; Ctrl-C stops", flush=True)
-    for waiting in arrivals(course, options.exercise, poll=options.poll):
-        graded(waiting)
+                continue
+            for result in results:
+                if (result.status != "unchanged" or result.moved) and result.student not in unusable:
+                    print(result_line(result, datetime.now()), flush=True)
+            unusable |= {result.student for result in results} - set(students)
     return 0
 
 

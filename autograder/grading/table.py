@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from datetime import datetime
 
 from rich.console import Console
 from rich.markup import escape
@@ -74,6 +75,14 @@ def class_table(results: Sequence[Result]) -> None:
         score = "-" if result.score is None else f"{result.score:g}/{result.max_score:g}"
         table.add_row(*map(_cell, (result.student, result.exercise, score, result.found())))
     _console().print(table)
+
+
+def result_line(result: Result, now: datetime) -> str:
+    """One submission on one line, with what moved."""
+    score = "-" if result.score is None else f"{result.score:g}/{result.max_score:g}"
+    moved = f"; moved: {', '.join(result.moved)}" if result.moved else ""
+    parts = (result.student, result.exercise, score, f"{result.found()}{moved}")
+    return "  ".join((f"{now:%H:%M}", *(terminal_text(part, 400) for part in parts)))
 
 
 def changes_table(results: Sequence[Result]) -> None:

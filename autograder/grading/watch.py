@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from threading import Event
 
@@ -19,7 +19,9 @@ LOOK = 3_000
 def arrivals(
     course: Course, exercises: Sequence[str], stop: Event | None = None, poll: bool = False
 ) -> Iterator[dict[str, list[str]]]:
-    """Whose work has changed, by exercise, each time when something has arrived and it is quiet again; for ever.
+    """First whose work is there, by exercise; then whose has changed, each time when something has arrived and it is quiet again.
+
+    What arrives while the one who asks is busy comes with the next answer. It goes on for ever.
 
     Parameters
     ----------
@@ -33,6 +35,7 @@ def arrivals(
     submitted = course.step("submitted")
     submitted.mkdir(parents=True, exist_ok=True)
     known = exercises or course.exercises()
+    begun = False
     for changes in watchfiles.watch(
         submitted,
         watch_filter=_counts,
@@ -41,15 +44,35 @@ def arrivals(
         stop_event=stop,
         force_polling=poll or None,
         poll_delay_ms=LOOK,
+        rust_timeout=QUIET,
+        yield_on_timeout=True,
     ):
-        found: dict[str, set[str]] = {}
+        if not begun:  # the system is listening now, so nobody falls between what is there and what arrives
+            begun = True
+            yield _handed_in(course, {exercise: set(course.students(exercise)) for exercise in known})
+            continue
+        found: dict[str, set[str]] = {exercise: set() for exercise in known}
         for _, path in changes:
-            student, exercise, *more = Path(path).relative_to(submitted.resolve()).parts + ("", "")
-            if exercise in known and more[0]:
-                found.setdefault(exercise, set()).add(student)
-        there = {exercise: sorted(students & set(course.students(exercise))) for exercise, students in found.items()}
-        if there := {exercise: students for exercise, students in there.items() if students}:
+            student, exercise, *_ = (*Path(path).relative_to(submitted.resolve()).parts, "", "")
+            # What is put into a new folder at once is not told: then the folder is all that one hears of.
+            for name in [exercise] if exercise else known:
+                if name in found:
+                    found[name].add(student)
+        if there := _handed_in(course, found):
             yield there
+
+
+def _handed_in(course: Course, found: Mapping[str, set[str]]) -> dict[str, list[str]]:
+    """Those of whom there is a file, by exercise."""
+    there = {
+        exercise: [
+            student
+            for student in sorted(students & set(course.students(exercise)))
+            if any(course.step("submitted", student, exercise).glob("[!.]*"))
+        ]
+        for exercise, students in found.items()
+    }
+    return {exercise: students for exercise, students in there.items() if students}
 
 
 def _counts(change: watchfiles.Change, path: str) -> bool:
