@@ -267,7 +267,7 @@ def draw_flip(misses=(np.radians(20), np.radians(5), np.radians(1)), ax=None):
         ax.plot(np.degrees(swing), np.degrees(first), color=INK, lw=1.7, ls=dashes, label=f"{np.degrees(miss):.3g}°")
     ax.grid(True)
     ax.set(
-        xlabel="position of the hand on its swing (degrees)", ylabel=r"$\theta_4$ (degrees)",
+        xlabel="position of the end effector on its swing (degrees)", ylabel=r"$\theta_4$ (degrees)",
         xlim=(-60, 60), ylim=(-5, 185), yticks=(0, 45, 90, 135, 180),
     )  # fmt: skip
     ax.legend(title="missed by", loc="lower left")

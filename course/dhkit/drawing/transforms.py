@@ -267,7 +267,7 @@ def draw_conventions():
         ax.annotate("", (-0.62, -0.36), (-0.2, -0.36), arrowprops={"arrowstyle": "-|>", "color": INK, "lw": 1})
         ax.annotate("", (1.62, -0.36), (1.2, -0.36), arrowprops={"arrowstyle": "-|>", "color": INK, "lw": 1})
         write(ax, (-0.18, -0.36), "base, upstream", ha="left", fontsize=10)
-        write(ax, (1.18, -0.36), "hand, downstream", ha="right", fontsize=10)
+        write(ax, (1.18, -0.36), "end effector, downstream", ha="right", fontsize=10)
     figure.subplots_adjust(hspace=0.12, left=0.02, right=0.98, top=0.95, bottom=0.02)
     return list(panels)
 

@@ -335,7 +335,7 @@ def draw_posture_count(lengths, limits, point=None, ax=None):
         draw_target(ax, goal)
     boxes = [Rectangle((0, 0), 1, 1, facecolor=shade, edgecolor=INK) for shade in COUNT_SHADES[1:]]
     lines = [plt.Line2D([], [], color=INK, lw=width) for width in (2.6, 1.1)]
-    names = ["one posture", "two postures", "singular: elbow straight", "joint at its limit"]
+    names = ["one configuration", "two configurations", "singular: elbow straight", "joint at its limit"]
     ax.legend([*boxes, *lines], names, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=2, handlelength=1.6)
     show_plane(ax)
     draw_joint(ax, (0, 0))
