@@ -9,7 +9,7 @@ ENVIRONMENT := --requirement requirements.txt --constraint constraints.txt --edi
 # Processes of a test run start by the hundred: none of them should compile the same modules anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: grade test check lint format lock setup lab bench clean bubblewrap
+.PHONY: grade test check lint format lock setup scene lab bench clean bubblewrap
 
 # The main job, on a sample class (tests/sample_class/write.py without --short writes all of it). Without a sandbox the harmful submissions are left out.
 grade: setup
@@ -43,6 +43,10 @@ format: setup
 lock: setup
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --no-annotate --custom-compile-command "make lock" \
 	  --output-file constraints.txt requirements.txt
+
+# The program of dhkit.scene, bundled with three.js into one file that is committed: only who changes it needs node.
+scene:
+	cd course/dhkit/scene/js && npm ci --silent --ignore-scripts && npm run --silent build
 
 # JupyterLab on lectures and exercises.
 lab: setup

@@ -87,6 +87,8 @@ def test_students_kit_needs_few_libraries():
         "cryptography",
         "msgspec",
         "ipywidgets",
+        "anywidget",
+        "traitlets",
         "dhkit",
         *sys.stdlib_module_names,
     }

@@ -20,7 +20,7 @@ FOR_LECTURERS = ("course/15_errata.ipynb",)
 IDS = f"course/dhkit/{LIST}"
 """With it the kit tells who types an id that is not on the roster; it names nobody."""
 
-_LEFT_OUT = {"build", "__pycache__", ".ipynb_checkpoints", ".pytest_cache"}
+_LEFT_OUT = {"build", "node_modules", "__pycache__", ".ipynb_checkpoints", ".pytest_cache"}
 _MARKS = ("BEGIN SOLUTION", "END SOLUTION", "BEGIN HIDDEN TESTS")
 _EPOCH = (1980, 1, 1, 0, 0, 0)
 

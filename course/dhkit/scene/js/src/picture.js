@@ -1,0 +1,141 @@
+// What of a robot is drawn in one posture: body, frames, joint axes, common normals, and where their labels belong.
+
+import { add, chain, column, cross, dot, norm, place, rowsAt, subtract } from "./kinematics.js";
+import { direction, layout, movingFrames, normalOf } from "./layout.js";
+import { ball, box, cone, tube } from "./solids.js";
+
+const AXIS = 0.13; // length of a drawn axis, in sizes of the robot
+const LETTERS = ["x", "y", "z"];
+// Pieces of an axis from its origin (0) to its head (1): x is solid, y dashed, z dash-dotted, as in the still drawings.
+const DASHES = {
+  x: [[0, 1]],
+  y: [[0, 0.3], [0.38, 0.64], [0.72, 1]],
+  z: [[0, 0.36], [0.44, 0.5], [0.58, 0.82], [0.9, 0.96]],
+};
+const CENTRE_LINE = [[0, 9], [12, 14]]; // dash and dot of a joint axis, of a period of 17
+
+/** A number of metres in at most three digits behind the point, with a proper minus sign. */
+export const metres = (value) => String(Number(value.toFixed(3))).replace("-", "\u2212");
+
+export class Picture {
+  constructor(arm) {
+    this.arm = arm;
+    this.joints = movingFrames(arm);
+    Object.assign(this, layout(arm));
+  }
+
+  /** Solids of the body: `colours` by tone, and what the joint with the number `lit` drives in the colour `colours.lit`. */
+  body(frames, colours, lit = null) {
+    const world = ({ frame, point }) => place(frames[frame], point);
+    return this.pieces.map((piece) => {
+      const driven = lit !== null && piece.joint && this.arm.coupling[piece.joint - 1][lit] !== 0;
+      const colour = driven ? colours.lit : colours[piece.tone];
+      if (piece.kind === "tube") return tube(world(piece.from), world(piece.to), piece.width, colour);
+      if (piece.kind === "ball") return ball(world(piece.centre), piece.width, colour);
+      const frame = frames[piece.centre.frame];
+      return box(world(piece.centre), piece.axes.map((axis) => direction(frame, axis)), piece.sizes, colour);
+    });
+  }
+
+  /** Solids of one more posture, all in one colour and without the base, which they share. */
+  ghost(frames, colour) {
+    const moving = { arm: this.arm, pieces: this.pieces.filter((piece) => piece.tone !== "base") };
+    return Picture.prototype.body.call(moving, frames, { link: colour, joint: colour, hand: colour });
+  }
+
+  /** The elbow of a posture: the frame's origin that is farthest from the line between base and hand. */
+  elbow(frames) {
+    const origins = frames.map((frame) => column(frame, 3)), hand = origins.at(-1);
+    const far = norm(hand);
+    const away = (point) => (far > 1e-6 * this.unit ? norm(cross(point, hand)) / far : norm(point));
+    return origins.reduce((best, point) => (away(point) > away(best) + 1e-6 ? point : best));
+  }
+
+  /** Axes of the frames with the given numbers; those that lie on one another once, with all their names. */
+  frames(frames, shown, colours) {
+    const size = AXIS * this.unit, solids = [], labels = [], merged = new Map();
+    for (const i of shown) {
+      const origin = column(frames[i], 3);
+      solids.push(ball(origin, 0.013 * this.unit, colours.ink));
+      LETTERS.forEach((letter, j) => {
+        const way = column(frames[i], j);
+        const key = [letter, ...origin, ...way].map((x) => (typeof x === "number" ? Math.round(x / this.unit * 1e5) : x)).join();
+        const axis = merged.get(key) ?? { letter, origin, way, owners: [] };
+        axis.owners.push(i);
+        merged.set(key, axis);
+      });
+    }
+    for (const { letter, origin, way, owners } of merged.values()) {
+      const colour = colours[letter], tip = add(origin, way, size);
+      for (const [from, to] of DASHES[letter]) {
+        solids.push(tube(add(origin, way, 0.8 * size * from), add(origin, way, 0.8 * size * to), 0.006 * this.unit, colour));
+      }
+      solids.push(cone(add(origin, way, 0.78 * size), tip, 0.02 * this.unit, colour));
+      const text = owners.map((i) => [letter, this.arm.names[i]]);
+      labels.push({ id: `frame ${letter} ${owners}`, text, kind: letter, at: tip, way, gap: 3 });
+    }
+    return { solids, labels };
+  }
+
+  /** Joint axes as centre lines, named at their end where the frame itself is not shown. */
+  axes(frames, shown, colours) {
+    const size = AXIS * this.unit, solids = [], labels = [], lines = [];
+    for (const i of this.joints) {
+      const point = column(frames[i], 3), way = column(frames[i], 2);
+      const line = lines.find((other) => norm(cross(other.way, way)) < 1e-6
+        && norm(cross(subtract(point, other.point), way)) < 1e-6 * this.unit);
+      if (line) line.owners.push(i);
+      else lines.push({ point, way, owners: [i] });
+    }
+    for (const { point, way, owners } of lines) {
+      const stops = owners.flatMap((i) => [at(frames, this.centres.get(i)), column(frames[i], 3), at(frames, normalOf(this.arm, i - 1)[1])]);
+      const places = stops.map((stop) => dot(subtract(stop, point), way));
+      const low = Math.min(...places) - 1.05 * size, high = Math.max(...places) + 1.5 * size;
+      const period = 0.15 * size;
+      for (let from = low; from < high; from += 1.7 * period) {
+        for (const [a, b] of CENTRE_LINE) {
+          const start = from + (a / 10) * period, end = Math.min(from + (b / 10) * period, high);
+          if (end > start) solids.push(tube(add(point, way, start), add(point, way, end), 0.0026 * this.unit, colours.soft));
+        }
+      }
+      const hidden = owners.filter((i) => !shown.includes(i));
+      if (!hidden.length) continue;
+      const tip = add(point, way, high + 0.3 * size);
+      for (const [from, to] of DASHES.z) {
+        const reach = 0.55 * size;
+        solids.push(tube(add(tip, way, reach * (from - 1.4)), add(tip, way, reach * (to - 1.4)), 0.0045 * this.unit, colours.z));
+      }
+      solids.push(cone(add(tip, way, -0.25 * size), tip, 0.015 * this.unit, colours.z));
+      const text = hidden.map((i) => ["z", this.arm.names[i]]);
+      labels.push({ id: `axis ${owners}`, text, kind: "z", at: tip, way, gap: 3 });
+    }
+    return { solids, labels };
+  }
+
+  /** Common normals and the walks along the axes, with the names and values of a and d. */
+  normals(frames, q, colours) {
+    const solids = [], labels = [], rows = rowsAt(this.arm, q);
+    const measure = (what, i, start, end, value, width) => {
+      if (norm(subtract(end, start)) < 1e-4 * this.unit) return;
+      solids.push(tube(start, end, width * this.unit, colours.ink));
+      solids.push(ball(start, 0.009 * this.unit, colours.ink), ball(end, 0.009 * this.unit, colours.ink));
+      const text = [[`${this.arm.letters[i][what]} = ${metres(value)}`, ""]];
+      labels.push({ id: `${what} ${i}`, text, kind: "length", at: start.map((x, k) => (x + end[k]) / 2), across: subtract(end, start), gap: 12 });
+    };
+    rows.forEach(([, a, , d], i) => {
+      const [start, foot, origin] = normalOf(this.arm, i).map((point) => at(frames, point));
+      measure("a", i, start, foot, a, 0.0048);
+      measure("d", i, foot, origin, d, 0.0032);
+    });
+    return { solids, labels };
+  }
+
+  /** Points that a view of this posture must hold. */
+  outline(q) {
+    const frames = chain(this.arm, q);
+    const ends = this.pieces.flatMap((piece) => (piece.kind === "tube" ? [piece.from, piece.to] : [piece.centre]));
+    return [...ends.map((end) => at(frames, end)), ...frames.map((frame) => column(frame, 3))];
+  }
+}
+
+const at = (frames, { frame, point }) => place(frames[frame], point);

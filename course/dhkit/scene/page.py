@@ -1,0 +1,56 @@
+"""A page that holds a scene, its data and its program: nothing is fetched, nothing but that program may run."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import html
+import json
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+_PAGE = """\
+<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; script-src '{hash}'">
+<title>{title}</title>
+<style>
+:root {{ color-scheme: light dark; }}
+body {{ margin: 0 auto; max-width: 1100px; padding: 12px; font-family: system-ui, "DejaVu Sans", sans-serif; }}
+</style>
+</head>
+<body>
+<div id="scene"></div>
+<noscript>The robot is drawn by a script, which this browser does not run.</noscript>
+<script type="application/json" id="state">{state}</script>
+<script>{script}</script>
+</body>
+</html>
+"""
+
+
+@cache
+def script() -> str:
+    """The program of a scene, built from ``js/``."""
+    return files(__package__).joinpath("scene.js").read_text(encoding="utf-8")
+
+
+def write_page(title: str, state: dict[str, Any]) -> str:
+    """The page as text.
+
+    Parameters
+    ----------
+    title : str
+        Shown as text, whatever it holds.
+    state : dict
+        See `Scene.state`.
+    """
+    program = script() + "dhkitScene.page();"
+    digest = base64.b64encode(hashlib.sha256(program.encode()).digest()).decode()
+    # In JSON a "<" stands in texts only; written like this, none of them can end the element.
+    data = json.dumps(state, allow_nan=False).replace("<", "\\u003c")
+    return _PAGE.format(hash=f"sha256-{digest}", title=html.escape(title), state=data, script=program)

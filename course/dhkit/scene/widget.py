@@ -1,0 +1,20 @@
+"""The scene as a widget. This module alone imports anywidget: who draws nothing does not pay for it."""
+
+from typing import Any
+
+import anywidget
+import traitlets
+
+from .page import script
+
+
+class SceneWidget(anywidget.AnyWidget):
+    """What kernel and browser share of a scene: see `Scene.state`."""
+
+    _esm = script() + "export default dhkitScene.default;"
+    arm = traitlets.Dict().tag(sync=True)
+    q: Any = traitlets.List(traitlets.Float()).tag(sync=True)
+    ghosts: Any = traitlets.List().tag(sync=True)
+    path: Any = traitlets.List().tag(sync=True)
+    seconds = traitlets.Float().tag(sync=True)
+    run = traitlets.Int().tag(sync=True)

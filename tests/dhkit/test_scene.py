@@ -1,0 +1,346 @@
+"""The live scene: what Python says to it, what the browser computes, and what stands in its place without one."""
+
+import base64
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+import zipfile
+from html.parser import HTMLParser
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+import sympy
+
+from dhkit.scene import Scene
+from dhkit.scene.page import script
+
+ROOT = Path(__file__).parents[2]
+PROGRAM = ROOT / "course/dhkit/scene/scene.js"
+WIDGET = "application/vnd.jupyter.widget-view+json"
+PNG = b"\x89PNG"
+
+t1, t2, t3, t4, a2, a3, d2 = sympy.symbols("t1 t2 t3 t4 a2 a3 d2")
+SCARA = [[0, 0, 0, 0, t1], [0, a2, 0, 0, t2], [1, a3, 0, -d2, 0], [0, 0, 0, 0, t4]]
+LENGTHS = {"a2": 0.4, "a3": 0.3}
+PLANAR = [[0, 0, 0, 0, t1], [0, 0.5, 0, 0, t2], [0, 0.4, 0, 0, 0]]
+HOSTILE = '<img src=x onerror="window.hacked=1"></script><script>window.hacked=1</script>'
+
+
+def in_node(expression, given):
+    """What a JavaScript expression in `dhkitScene`, the built program, and `given` comes to."""
+    if shutil.which("node") is None:
+        pytest.skip("node, which runs the program of the scene here, is not installed")
+    code = f"""
+        const {{ readFileSync }} = require("fs");
+        const dhkitScene = new Function(readFileSync({json.dumps(str(PROGRAM))}, "utf8") + "; return dhkitScene;")();
+        const given = JSON.parse(readFileSync(0, "utf8"));
+        console.log(JSON.stringify({expression}));
+    """
+    done = subprocess.run(["node", "-e", code], input=json.dumps(given), capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+# ---------------------------------------------------------------- the table
+
+
+def test_joint_variables_are_the_symbols_that_move():
+    scene = Scene(SCARA, LENGTHS)
+    assert [(joint.name, joint.prismatic) for joint in scene.arm.joints] == [
+        ("θ₁", False),
+        ("θ₂", False),
+        ("d₂", True),
+        ("θ₄", False),
+    ]
+    assert scene.arm.table([0.1, 0.2, 0.3, 0.4]) == pytest.approx(
+        np.array([[0, 0, 0, 0, 0.1], [0, 0.4, 0, 0, 0.2], [1, 0.3, 0, -0.3, 0], [0, 0, 0, 0, 0.4]])
+    )
+
+
+def test_a_row_without_joint_is_the_tool():
+    scene = Scene(PLANAR)
+    assert len(scene.q) == 2
+    assert scene.names == ["0", "1", "2", "E"]
+
+
+def test_a_table_of_numbers_is_a_posture():
+    rows = [[0, 0, 0, 0, 0.3], [1, 0.5, 0, 0.2, 0], [0, 0.4, 0, 0, 0.7]]
+    assert Scene(rows).q == pytest.approx([0.3, 0.2, 0.7])
+    scene = Scene(rows, tool=True)
+    assert scene.q == pytest.approx([0.3, 0.2])
+    assert scene.arm.table(scene.q) == pytest.approx(np.array(rows))
+
+
+def test_a_number_for_a_joint_variable_is_its_start():
+    assert Scene(SCARA, LENGTHS | {"t2": 0.9}).q == pytest.approx([0, 0.9, 0, 0])
+
+
+def test_joints_may_drive_several_rows():
+    rows = [[0, 0, 0, 0, t1], [0, 0.3, 0, 0, t2 - t1 - sympy.pi / 2]]
+    assert Scene(rows).arm.table([0.4, 1.0])[:, 4] == pytest.approx([0.4, 0.6 - np.pi / 2])
+
+
+@pytest.mark.parametrize(
+    "table, values, message",
+    [
+        (SCARA, {"a2": 0.4}, r"number for a3 \(row 3, a\)"),
+        ([[0, 0, 0, 0]], None, "row 1: expected .*found 4 entries"),
+        ([[2, 0, 0, 0, t1]], None, "row 1: sigma must be 0"),
+        ([[0, 0, 0, 0, sympy.sin(t1)]], None, r"row 1: expected a sum .*sin\(t1\)"),
+        ([[0, "__import__('os')", 0, 0, t1]], None, "row 1: a must be a number or an expression"),
+        ([[0, 0, 0, 0, ...]], None, "row 1: theta must be a number"),
+        ([], None, "found 0"),
+        (3, None, "expected rows"),
+        ([[0, sympy.nan, 0, 0, t1]], None, "finite"),
+    ],
+)
+def test_a_wrong_table_is_refused_in_words(table, values, message):
+    with pytest.raises(ValueError, match=message):
+        Scene(table, values)
+
+
+@pytest.mark.parametrize(
+    "act, message",
+    [
+        (lambda scene: setattr(scene, "q", [1, 2]), r"q: .*has 4 numbers: θ₁, θ₂, d₂, θ₄"),
+        (lambda scene: setattr(scene, "q", [1, 2, 3, float("nan")]), "finite"),
+        (lambda scene: scene.ghosts([[1, 2, 3]]), "solutions: "),
+        (lambda scene: scene.ghosts(np.zeros((65, 4))), "at most 64"),
+        (lambda scene: scene.play([[0, 0, 0, 0]]), "two or more"),
+        (lambda scene: scene.play(np.zeros((2, 4)), seconds=0), "seconds"),
+        (lambda scene: Scene(SCARA, LENGTHS, frames=[5]), "frames"),
+        (lambda scene: Scene(SCARA, LENGTHS, limits=[(1, 0)] * 4), "lowest first"),
+        (lambda scene: Scene(SCARA, LENGTHS, tool=np.diag([2, 1, 1, 1])), "tool"),
+    ],
+)
+def test_wrong_numbers_are_refused_in_words(act, message):
+    with pytest.raises(ValueError, match=message):
+        act(Scene(SCARA, LENGTHS))
+
+
+def test_sliders_have_round_values_within_the_limits():
+    joints = Scene(SCARA, LENGTHS, limits=[(-1, 1), (-1, 1), (0.0, 0.25), (-1, 1)]).arm.joints
+    assert (joints[2].low, joints[2].high, joints[2].step) == (0.0, 0.25, 0.005)
+    assert Scene(SCARA, LENGTHS).arm.joints[2].high == pytest.approx(0.3)
+
+
+# ---------------------------------------------------------------- what is shown
+
+
+def test_a_scene_is_a_widget_with_the_still_drawing_beside_it():
+    scene = Scene(SCARA, LENGTHS)
+    bundle = scene._repr_mimebundle_()
+    assert base64.b64decode(bundle["image/png"]).startswith(PNG)
+    assert bundle[WIDGET]["model_id"] == scene._widget.model_id
+    assert bundle["text/plain"] == "robot with 4 joints: θ₁, θ₂, d₂, θ₄"
+    assert not plt.get_fignums()
+
+
+def test_kernel_and_browser_share_the_posture():
+    scene = Scene(SCARA, LENGTHS)
+    scene._repr_mimebundle_()
+    scene.q = [0.1, 0.2, 0.3, 0.4]
+    assert scene._widget.q == [0.1, 0.2, 0.3, 0.4]
+    scene._widget.set_state({"q": [1.0, 0.5, 0.2, 0.1]})  # as a slider does
+    assert scene.q == [1.0, 0.5, 0.2, 0.1]
+    scene.ghosts([[0, 0, 0, 0], [1, 1, 0, 1]])
+    assert scene._widget.ghosts == [[0, 0, 0, 0], [1, 1, 0, 1]]
+    run = scene._widget.run
+    assert scene.play([[0, 0, 0, 0], [1, 1, 0, 1]], seconds=2) is scene
+    assert (scene._widget.run, scene._widget.seconds, len(scene._widget.path)) == (run + 1, 2, 2)
+    assert scene.ghosts([])._widget.ghosts == []
+
+
+def test_where_scenes_stand_still_there_is_no_widget(monkeypatch):
+    monkeypatch.setenv("DHKIT_STILL", "1")
+    assert WIDGET not in Scene(SCARA, LENGTHS)._repr_mimebundle_()
+
+
+def test_without_anywidget_the_still_drawing_remains(monkeypatch):
+    monkeypatch.setitem(sys.modules, "anywidget", None)
+    monkeypatch.delitem(sys.modules, "dhkit.scene.widget", raising=False)
+    bundle = Scene(SCARA, LENGTHS)._repr_mimebundle_()
+    assert WIDGET not in bundle
+    assert base64.b64decode(bundle["image/png"]).startswith(PNG)
+
+
+@pytest.mark.slow
+def test_who_draws_no_scene_does_not_load_the_widget():
+    code = """import sys, dhkit.scene
+scene = dhkit.scene.Scene([[0, 0, 0, 0, 0.1], [0, 0.5, 0, 0, 0.2]])
+scene.q = [1, 2]
+scene.ghosts([[1, 2]]).play([[1, 2], [0, 0]])
+assert "anywidget" not in sys.modules"""
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_the_grader_sees_still_drawings():
+    from autograder.sandbox import bubblewrap
+
+    assert bubblewrap._kernel_environment()["DHKIT_STILL"]
+
+
+@pytest.mark.parametrize("solutions", [[], [[0.1, 0.2], [0.3, -0.2]]])
+def test_the_still_drawing_shows_robot_or_postures(solutions):
+    assert Scene(PLANAR).ghosts(solutions).still().startswith(PNG)
+    assert Scene(PLANAR[:2], tool=np.eye(4)).ghosts(solutions).still().startswith(PNG)
+
+
+# ---------------------------------------------------------------- the page
+
+
+class Elements(HTMLParser):
+    """Tags of a page, and the text of each script."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.tags, self.scripts = [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append(tag)
+        if tag == "script":
+            self.scripts.append("")
+
+    def handle_data(self, data):
+        if self.tags[-1:] == ["script"]:
+            self.scripts[-1] += data
+
+
+def test_no_text_of_a_student_acts_as_html(tmp_path):
+    evil = sympy.Symbol(HOSTILE)
+    scene = Scene([[0, 0, 0, 0, evil], [0, a2, 0, 0, t2]], LENGTHS, names=[HOSTILE, "1", "2"], title=HOSTILE)
+    scene.save(tmp_path / "arm.html")
+    page = Elements((tmp_path / "arm.html").read_text(encoding="utf-8"))
+    assert "img" not in page.tags
+    assert len(page.scripts) == 2
+    state = json.loads(page.scripts[0])
+    assert state["arm"]["title"] == state["arm"]["names"][0] == HOSTILE
+    assert "</" not in page.scripts[0]
+
+
+def test_a_page_fetches_nothing_and_runs_its_own_program_only(tmp_path):
+    Scene(PLANAR).save(tmp_path / "arm.html")
+    page = (tmp_path / "arm.html").read_text(encoding="utf-8")
+    assert "default-src 'none'" in page
+    assert re.search(r"script-src 'sha256-[\w+/=]{44}'\"", page)
+    assert not re.search(r"<(link|img|iframe)|\ssrc=", page.replace(script(), ""))
+
+
+def test_the_program_cannot_end_its_own_element():
+    assert not re.search(r"</script|<!--", script(), re.I)
+    assert script().isascii()
+
+
+# ---------------------------------------------------------------- the program
+
+
+@pytest.fixture(scope="module")
+def catalogue():
+    """State, joint values and hand poses of each serial robot of the catalogue."""
+    from autograder.reference import robots
+
+    rng = np.random.default_rng(1)
+    cases = {}
+    for name in robots.names():
+        table = getattr(robots, name).table
+        rows = [[row.sigma, *row.parameters] for row in table.rows]
+        tool = np.array(table.tool.subs(table.values), dtype=float)
+        scene = Scene(rows, table.values, tool=False if np.array_equal(tool, np.eye(4)) else tool)
+        q = rng.uniform(-3, 3, (20, len(table.joints)))
+        cases[name] = {"arm": scene.state()["arm"], "q": q.tolist(), "hands": table.forward(q)}
+    return cases
+
+
+def test_forward_kinematics_in_the_browser_is_the_reference_solver(catalogue):
+    given = {name: {"arm": case["arm"], "q": case["q"]} for name, case in catalogue.items()}
+    of_all = "Object.fromEntries(Object.entries(given).map(([name, { arm, q }]) => [name, q.map((each) => dhkitScene.forward(arm, each))]))"
+    found = in_node(of_all, given)
+    assert len(found) >= 15
+    for name, case in catalogue.items():
+        error = np.abs(np.reshape(found[name], (-1, 4, 4)) - case["hands"]).max()
+        assert error < 1e-9, name
+
+
+def test_every_robot_of_the_catalogue_has_a_body_fixed_to_its_frames(catalogue):
+    given = {name: case["arm"] for name, case in catalogue.items()}
+    bodies = in_node(
+        "Object.fromEntries(Object.entries(given).map(([name, arm]) => [name, dhkitScene.layout(arm)]))", given
+    )
+    for name, arm in given.items():
+        pieces = bodies[name]["pieces"]
+        assert {piece["joint"] for piece in pieces if "joint" in piece} == set(range(1, 1 + len(arm["joints"]))), name
+        last = len(arm["rows"]) + (arm["tool"] is not None)
+        ends = [piece[end] for piece in pieces for end in ("from", "to", "centre") if end in piece]
+        assert max(end["frame"] for end in ends) == last, name
+        assert np.isfinite([end["point"] for end in ends]).all(), name
+
+
+def test_labels_never_hide_each_other():
+    rng = np.random.default_rng(2)
+    labels = [
+        {"x": x, "y": y, "heading": heading, "gap": 4, "w": w, "h": 16}
+        for x, y, heading, w in rng.uniform((60, 60, -3, 20), (260, 200, 3, 90), (40, 4))
+    ]
+    placed = in_node("dhkitScene.arrange(given, 320, 260)", labels)
+    boxes = [box for box in placed if box]
+    assert len(boxes) > 15
+    for k, one in enumerate(boxes):
+        assert one["w"] / 2 <= one["x"] <= 320 - one["w"] / 2
+        for other in boxes[:k]:
+            apart = abs(one["x"] - other["x"]) >= (one["w"] + other["w"]) / 2
+            assert apart or abs(one["y"] - other["y"]) >= (one["h"] + other["h"]) / 2
+
+
+def test_a_label_keeps_its_place_when_it_can():
+    label = {"x": 100, "y": 100, "heading": 0, "gap": 4, "w": 30, "h": 16}
+    (first,) = in_node("dhkitScene.arrange(given, 320, 260)", [label])
+    (second,) = in_node("dhkitScene.arrange(given, 320, 260, ['0.5235987755982988 0'])", [label])
+    assert first["key"] == "0 0"
+    assert second["key"].startswith("0.52")
+
+
+def test_a_path_is_followed_from_end_to_end():
+    given = [[0, 0], [1, 2], [3, 2]]
+    assert in_node("[0, 0.25, 0.5, 1].map((share) => dhkitScene.along(given, share))", given) == [
+        [0, 0],
+        [0.5, 1],
+        [1, 2],
+        [3, 2],
+    ]
+
+
+@pytest.mark.slow
+def test_the_committed_program_is_built_from_its_sources(tmp_path):
+    folder = PROGRAM.parent / "js"
+    if not (folder / "node_modules").is_dir():
+        pytest.skip("the tools that build the program are not installed: make scene")
+    command = json.loads((folder / "package.json").read_text())["scripts"]["build"]
+    built = tmp_path / "scene.js"
+    command = command.replace("--outfile=../scene.js", f"--outfile={built}")
+    subprocess.run(["npx", "--no-install", *command.split()], cwd=folder, check=True, capture_output=True)
+    assert built.read_bytes() == PROGRAM.read_bytes()
+
+
+@pytest.mark.parametrize("project", ["pyproject.toml", "course/pyproject.toml"])
+def test_the_program_goes_with_the_kit_with_its_licence(project):
+    data = tomllib.loads((ROOT / project).read_text())["tool"]["setuptools"]["package-data"]
+    assert data["dhkit.scene"] == ["scene.js", "LICENSE-three.txt"]
+
+
+def test_the_kit_stays_below_two_megabytes(tmp_path):
+    course = ROOT / "course"
+    data = tomllib.loads((course / "pyproject.toml").read_text())["tool"]["setuptools"]["package-data"]
+    taken = [path for path in (course / "dhkit").rglob("*.py") if "node_modules" not in path.parts]
+    for package, patterns in data.items():
+        taken += [path for pattern in patterns for path in (course / package.replace(".", "/")).glob(pattern)]
+    with zipfile.ZipFile(tmp_path / "kit.whl", "w", zipfile.ZIP_DEFLATED) as wheel:
+        for path in taken:
+            wheel.write(path, path.relative_to(course))
+    assert PROGRAM in taken
+    assert (tmp_path / "kit.whl").stat().st_size < 2_000_000
