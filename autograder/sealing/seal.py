@@ -37,6 +37,7 @@ from dhkit.home.envelopes import (
 )
 from dhkit.home.verdict import function_parts, kind_of
 
+from .likely import named
 from .plausible import ENOUGH, bits_of_parts, bits_of_results
 
 CALLS_A_CASE = 3
@@ -222,16 +223,23 @@ def sealables(question: Question, which: int, solution: str = "") -> list[Sealab
     essential = question.form.essential
     found = [Sealable(said, "", right.parts[""], essential(right.witness))]
     seen = [essential(right.witness)]
+
+    def add(said: Said, look: Look | None) -> None:
+        if look is None or look.bits[""] < ENOUGH:
+            return
+        if any(question.form.agree(essential(look.witness), other, sight) for other in seen):
+            return  # what comes first in the tree decides
+        seen.append(essential(look.witness))
+        found.append(Sealable(said, "", look.parts[""], look.witness))
+
     for node in question.mistakes:
         said = Said(state="mistake", note=node.note, share=node.share, text=node.feedback)
         for way in node.ways:
-            look = _seen(question, which, way)
-            if look is None or look.bits[""] < ENOUGH:
-                continue
-            if any(question.form.agree(essential(look.witness), other, sight) for other in seen):
-                continue  # what comes first in the tree decides
-            seen.append(essential(look.witness))
-            found.append(Sealable(said, "", look.parts[""], look.witness))
+            add(said, _seen(question, which, way))
+    if not question.personal and question.form.kind != "function":
+        for verdict, answer in named(question, variants.member(question.exercise, which)):
+            said = Said(state="mistake", note=verdict.note, share=verdict.share, text=verdict.feedback)
+            add(said, _look(question, sight, answer))
     for part, numbers in right.parts.items():
         if part and right.bits.get(part, 0.0) >= ENOUGH:
             found.append(Sealable(Said(state="part", note=kind_of(part)), kind_of(part), numbers))
@@ -247,8 +255,10 @@ def _seen(question: Question, which: int, *ways: Way) -> Look | None:
             return _seen_function(question, sight, which, answer)
     except IMPOSSIBLE:
         return None
-    if isinstance(answer, Family):
-        return None
+    return None if isinstance(answer, Family) else _look(question, sight, answer)
+
+
+def _look(question: Question, sight: Sight, answer: object) -> Look | None:
     form: Form = question.form
     node = wire.encode(answer)
     if form.complaint(node):

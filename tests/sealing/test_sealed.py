@@ -12,6 +12,7 @@ from autograder.judge import Family, judge
 from autograder.judge.tree import IMPOSSIBLE
 from autograder.questions import exercises
 from autograder.sealing import seal_exercise
+from autograder.sealing.likely import named
 from autograder.sealing.seal import sealables
 from dhkit import variants, wire
 from dhkit.forms.base import Symbolic, squeezed
@@ -108,6 +109,21 @@ def test_named_mistakes_are_named_as_the_judge_names_them(home, question):
             continue
         named += found.state == "mistake"
     assert named or len(question.mistakes) < 3
+
+
+@pytest.mark.parametrize(
+    "question",
+    [q for q in QUESTIONS if not q.personal and q.form.symbols and q.form.kind != "function"],
+    ids=lambda q: q.id,
+)
+def test_two_mistakes_and_slips_are_named_as_the_judge_names_them(home, question):
+    if not is_sealed(question):
+        return
+    whose = student(question)
+    known = named(question, whose)
+    said = [(ours, verdict(question.id, answer, whose)) for ours, answer in known]
+    assert all(found.note in ("", ours.note) and found.state != "right" for ours, found in said)
+    assert sum(found.note == ours.note for ours, found in said) >= 0.5 * len(known) > 0
 
 
 @pytest.mark.parametrize(
