@@ -99,6 +99,7 @@ def seal_exercise(
     *,
     cost: int = COST,
     sets: int = variants.SETS,
+    least: float = ENOUGH,
     told: Callable[[str], None] = lambda question: None,
 ) -> tuple[SealedExercise, list[Decision]]:
     """The file for the students' copies of an exercise.
@@ -117,6 +118,8 @@ def seal_exercise(
         Of scrypt, for each envelope.
     sets : int
         How many sets of numbers are sealed; the others have no verdict at home.
+    least : float
+        Bits that an answer must have to be sealed, 0 where it is no secret: see `plausible`.
     told : callable
         Told each question that is done.
     """
@@ -124,7 +127,7 @@ def seal_exercise(
     sealed, made = {}, []
     with ThreadPoolExecutor() as pool:
         for question in questions:
-            entry, decision = _seal_question(head, question, solutions.get(question.id, ""), sets, pool)
+            entry, decision = _seal_question(head, question, solutions.get(question.id, ""), sets, least, pool)
             sealed[question.id.partition(".")[2]] = replace(entry, points=points.get(question.id, 0.0))
             made.append(decision)
             told(question.id)
@@ -142,15 +145,15 @@ def _rights(question: Question, sets: int) -> list[Look | None]:
 
 
 def _seal_question(
-    head: SealedExercise, question: Question, solution: str, sets: int, pool: ThreadPoolExecutor
+    head: SealedExercise, question: Question, solution: str, sets: int, least: float, pool: ThreadPoolExecutor
 ) -> tuple[SealedQuestion, Decision]:
     sight = _sight(question)
     numbers_sets = range(sets if question.personal else 1)
-    decision = _decide(question, sight, _rights(question, sets))
+    decision = _decide(question, sight, _rights(question, sets), least)
     if decision.why_not:
         return SealedQuestion(why_not=decision.why_not), decision
     calls = [_calls(question, which) for which in numbers_sets]
-    to_seal = [sealables(question, which, solution) for which in numbers_sets]
+    to_seal = [sealables(question, which, solution, least) for which in numbers_sets]
     texts = {one.said: None for some in to_seal for one in some}
     numbered = {said: number for number, said in enumerate(texts)}
     length = length_for(max(len(one.witness) for some in to_seal for one in some))
@@ -203,7 +206,7 @@ def _sight(question: Question) -> Sight:
     return Sight(points=points, angles=question.angles, tolerance=question.accuracy, pins=pins)
 
 
-def _decide(question: Question, sight: Sight, rights: Sequence[Look | None]) -> Decision:
+def _decide(question: Question, sight: Sight, rights: Sequence[Look | None], least: float = ENOUGH) -> Decision:
     if question.public.home == "form":
         return Decision(question.id, 0.0, "the lecturer decided so")
     if isinstance(question.form, Choice):
@@ -211,10 +214,10 @@ def _decide(question: Question, sight: Sight, rights: Sequence[Look | None]) -> 
     if any(right is None for right in rights):
         return Decision(question.id, 0.0, "there are too many ways to be right")
     bits = min(right.bits.get("", 0.0) for right in rights if right is not None)
-    return Decision(question.id, bits, "" if bits >= ENOUGH else _TO_TRY)
+    return Decision(question.id, bits, "" if bits >= least else _TO_TRY)
 
 
-def sealables(question: Question, which: int, solution: str = "") -> list[Sealable]:
+def sealables(question: Question, which: int, solution: str = "", least: float = ENOUGH) -> list[Sealable]:
     """What is sealed of a question for one set of numbers, the right answer first."""
     sight, right = _sight(question), _seen(question, which)
     assert right is not None, question.id
@@ -225,7 +228,7 @@ def sealables(question: Question, which: int, solution: str = "") -> list[Sealab
     seen = [essential(right.witness)]
 
     def add(said: Said, look: Look | None) -> None:
-        if look is None or look.bits[""] < ENOUGH:
+        if look is None or look.bits[""] < least:
             return
         if any(question.form.agree(essential(look.witness), other, sight) for other in seen):
             return  # what comes first in the tree decides
@@ -241,7 +244,7 @@ def sealables(question: Question, which: int, solution: str = "") -> list[Sealab
             said = Said(state="mistake", note=verdict.note, share=verdict.share, text=verdict.feedback)
             add(said, _look(question, sight, answer))
     for part, numbers in right.parts.items():
-        if part and right.bits.get(part, 0.0) >= ENOUGH:
+        if part and right.bits.get(part, 0.0) >= least:
             found.append(Sealable(Said(state="part", note=kind_of(part)), kind_of(part), numbers))
     return found
 

@@ -124,7 +124,12 @@ def _notice(question: public.PublicQuestion, node: object, function: Callable | 
     if any(line.blank for line in lines):
         return Notice(question.title, "not attempted yet", ())
     if found.state == "right":
-        return Notice(question.title, "right", (Line(True, f'how it goes: solution("{question.id}")'),))
+        how = (
+            f'how it goes: solution("{question.id}")'
+            if question.exercise != public.TRY
+            else "unfold the answer to compare"
+        )
+        return Notice(question.title, "right", (Line(True, how),))
     lines = [Line(None, f"the form is right: {question.form.expected}{_precision(question.form)}"), *lines]
     if found.state == "undecided":
         missed = sum(line.holds is False for line in lines)

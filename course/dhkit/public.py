@@ -3,6 +3,8 @@
 The data lie in ``dhkit/questions/<exercise>.toml``, one table per question, and hold no answer. The table
 ``[variant]`` is no question: it says which numbers are the student's own (see `dhkit.variants`). A table that does not
 fit is refused with its file, its question and its field.
+
+``dhkit/tries.toml`` holds what the lectures ask to try, by lecture: no points, nothing to hand in.
 """
 
 from __future__ import annotations
@@ -24,6 +26,8 @@ from .public_checks import PublicCheck
 from .schema import convert, unique
 
 VARIANT = "variant"
+TRY = "try"
+"""In the place of an exercise: what a lecture asks to try, for example ``"try.scara.down"``."""
 
 
 class Heading(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -101,14 +105,14 @@ def _tables(file: str, text: str) -> dict[str, object]:
 def questions() -> dict[str, PublicQuestion]:
     """All questions by id, in the order of their files. `ValueError` names file, question and field that are wrong."""
     return {
-        f"{exercise}.{name}": _question(exercise, name, table)
+        f"{exercise}.{name}": _question(f"{exercise}.toml", exercise, name, table)
         for exercise, tables in _files().items()
         for name, table in tables.items()
         if name != VARIANT
     }
 
 
-def _question(exercise: str, name: str, table: object) -> PublicQuestion:
+def _question(file: str, exercise: str, name: str, table: object) -> PublicQuestion:
     try:
         if not name.isidentifier():
             raise ValueError("a name is made of letters, digits and underscores")
@@ -116,7 +120,19 @@ def _question(exercise: str, name: str, table: object) -> PublicQuestion:
             raise ValueError(f"a question is a table, [{name}]")
         return from_table(f"{exercise}.{name}", table)
     except ValueError as error:
-        raise ValueError(f"{exercise}.toml: question {name}: {error}") from None
+        raise ValueError(f"{file}: question {name}: {error}") from None
+
+
+@cache
+def tries() -> dict[str, PublicQuestion]:
+    """What the lectures ask to try, by id. `ValueError` names question and field that are wrong."""
+    file = "tries.toml"
+    tables = _tables(file, resources.files("dhkit").joinpath(file).read_text(encoding="utf-8"))
+    return {
+        f"{TRY}.{lecture}.{name}": _question(file, f"{TRY}.{lecture}", name, table)
+        for lecture, named in tables.items()
+        for name, table in named.items()  # type: ignore[attr-defined]
+    }
 
 
 def variant_ranges(exercise: str) -> dict[str, tuple]:
@@ -149,8 +165,9 @@ def _range(where: str, value: object) -> tuple:
 
 def find(id: str) -> PublicQuestion:
     """The question called `id`; a `KeyError` names the nearest ones."""
+    known = tries() if id.startswith(f"{TRY}.") else questions()
     try:
-        return questions()[id]
+        return known[id]
     except KeyError:
-        near = difflib.get_close_matches(id, questions(), n=3) or list(questions())[:3]
+        near = difflib.get_close_matches(id, known, n=3) or list(known)[:3]
         raise KeyError(f"there is no question {id!r}; did you mean {' or '.join(near)}?") from None
