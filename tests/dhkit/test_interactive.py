@@ -86,6 +86,7 @@ def in_space(t1, t2):
     return draw_chain([[0, 0, 0, 0.3, t1], [0, 0.5, 1.2, 0, t2], [0, 0.4, 0, 0, 0]], tool=True, frames=())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("draw", [planar, in_space])
 def test_pictures_keep_scale_and_place_when_sliders_move(draw):
     camera = interactive._Camera(draw)

@@ -26,6 +26,7 @@ def test_the_numbers_of_a_student_never_change():
     assert numbers("arm", "学生") == {"L1": 0.42, "x": 0.3, "elbow": "up"}
 
 
+@pytest.mark.slow
 def test_a_fresh_process_with_another_hash_seed_finds_the_same():
     code = "from dhkit import variants; variants.variant_ranges = lambda _: {'a': (0.0, 1000.0, 1.0)}; print(variants.numbers('arm', 'ada'))"
     found = {

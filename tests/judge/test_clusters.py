@@ -199,6 +199,7 @@ def trees(inner):
     )
 
 
+@pytest.mark.slow
 @settings(max_examples=200, deadline=None)
 @given(st.recursive(LEAVES | ROOTS, trees, max_leaves=8))
 def test_what_is_written_means_what_was_handed_in(tree):

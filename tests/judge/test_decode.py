@@ -132,6 +132,7 @@ JSON = st.recursive(
 )  # fmt: skip
 
 
+@pytest.mark.slow
 @settings(max_examples=400, deadline=None)
 @given(JSON)
 def test_any_json_is_decoded_or_refused(node):

@@ -49,6 +49,7 @@ def test_a_redundant_arm_finds_a_member_within_its_limits(lengths, limits):
             assert np.abs(np.exp(1j * gap) - 1).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_what_no_member_reaches_within_the_limits_stays_unreachable():
     """SciPy's search within the limits finds none either; limits as wide as the best one found let it in."""
     lengths, limits = (0.4, 0.3, 0.25, 0.15), [(-0.4, 0.4)] * 4
@@ -85,6 +86,7 @@ RX90 = np.radians([(-160, 160), (-137, 137), (-142, 142), (-270, 270), (-105, 12
 NARROW = np.radians([(-60, 60), (-137, 137), (-142, 142), (-60, 60), (-60, 60), (-60, 60)])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("limits", [RX90, NARROW])
 def test_an_arm_over_axis_1_finds_a_member_within_its_limits(limits):
     robot = robots.rx90(limits=limits)
@@ -102,6 +104,7 @@ def test_an_arm_over_axis_1_finds_a_member_within_its_limits(limits):
         assert away.q is not None and inside(away.q, limits) and away.distance <= 0.1 * np.sqrt(6) + 1e-9
 
 
+@pytest.mark.slow
 def test_the_member_that_is_near_is_reported_where_it_is_within_the_limits():
     lengths, limits = (0.4, 0.3, 0.25, 0.15), [(-PI / 2, PI / 2)] * 4
     robot = robots.planar(lengths, limits=limits)

@@ -116,6 +116,7 @@ def test_hidden_frames_leave_their_axis_a_name():
     assert "$Z_{3}, Z_{4}$" in texts(draw_chain(SCARA, SCARA_AT, frames=()))
 
 
+@pytest.mark.slow
 def test_normals_carry_the_names_of_the_table_or_their_values():
     assert {"$a_{2}$", "$a_{3}$", "$- d_{2}$"} <= set(texts(draw_chain(SCARA, SCARA_AT, frames=(), normals=True)))
     numbers = texts(draw_chain(KR210, tool=True, frames=(), normals=True))

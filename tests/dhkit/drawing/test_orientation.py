@@ -36,6 +36,7 @@ def test_hinges_of_the_second_solution_carry_the_same_hand():
     assert gimbal_axes(other, "zyx")[1] == pytest.approx(-gimbal_axes(ANGLES, "zyx")[1])
 
 
+@pytest.mark.slow
 def test_locked_rings_show_two_lines_and_free_rings_three():
     def lines(angles, axes):
         return sum(len(line.get_xdata()) == 2 and line.get_zorder() == 1.0 for line in draw_gimbal(angles, axes).lines)
