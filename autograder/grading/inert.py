@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import os
 import re
+import sysconfig
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape, unescape
+from pathlib import Path
+from typing import Literal
 from urllib.parse import unquote
 
 import nh3
+from latex2mathml.converter import convert
 from nbconvert.filters.markdown_mistune import IPythonRenderer, MarkdownWithMath
 from nbformat.notebooknode import NotebookNode
 from nbformat.v4 import new_output
 from pygments.token import STANDARD_TYPES
+
+import dhkit
 
 MAX_NESTING = 100  # tags within tags; what reads the page later on needs time with the square of it
 PICTURES = ("image/png", "image/jpeg", "image/gif", "image/webp")
@@ -20,6 +27,14 @@ PICTURES = ("image/png", "image/jpeg", "image/gif", "image/webp")
 # The full-width ones begin a formula in East Asian spreadsheets.
 _FORMULA = ("=", "+", "-", "@", "\t", "\r", "\uff1d", "\uff0b", "\uff0d", "\uff20")
 _SHOWN = ("text/plain", "text/latex", "image/svg+xml", "image/png", "image/jpeg")
+_LIBRARIES = sorted(
+    {
+        f"{folder}{os.sep}"
+        for folder in (*map(sysconfig.get_path, ("purelib", "platlib", "stdlib")), Path(dhkit.__file__).parents[1])
+    },
+    key=len,
+    reverse=True,
+)
 BASE64 = re.compile(r"[A-Za-z0-9+/=\s]*\Z")
 _CONTROL = re.compile(
     r"(?:\x1b\[[0-9;?]*[A-Za-z]|[\x00-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff])+"
@@ -69,14 +84,14 @@ def _inert(output: dict, count: int) -> NotebookNode | None:
     kind = output.get("output_type")
     if kind == "stream":
         name = "stderr" if output.get("name") == "stderr" else "stdout"
-        return new_output("stream", name=name, text=_joined(output.get("text")))
+        return new_output("stream", name=name, text=_without_folders(_joined(output.get("text"))))
     if kind == "error":
         lines = output.get("traceback")
         return new_output(
             "error",
             ename=_joined(output.get("ename")),
             evalue=_joined(output.get("evalue")),
-            traceback=[_joined(line) for line in lines] if isinstance(lines, list) else [],
+            traceback=[_without_folders(_joined(line)) for line in lines] if isinstance(lines, list) else [],
         )
     if kind not in ("display_data", "execute_result") or not isinstance(output.get("data"), dict):
         return None
@@ -87,6 +102,13 @@ def _inert(output: dict, count: int) -> NotebookNode | None:
     return new_output(kind, data=data, **({"execution_count": count} if kind == "execute_result" else {}))
 
 
+def _without_folders(text: str) -> str:
+    """A text without the folders in which this machine keeps its libraries."""
+    for folder in _LIBRARIES:
+        text = text.replace(folder, "")
+    return text
+
+
 def _joined(text: object) -> str:
     """One clean string from nbformat's string or list of strings."""
     if isinstance(text, list):
@@ -94,11 +116,29 @@ def _joined(text: object) -> str:
     return text.encode("utf-8", "replace").decode("utf-8") if isinstance(text, str) else ""
 
 
+def formula(source: str, display: Literal["inline", "block"] = "inline") -> str:
+    """A formula in LaTeX as MathML, which browsers show without a script and without a network; as it is, if it is none."""
+    try:
+        return convert(_NAMES.sub(r"\\mathrm", source), display=display)
+    except Exception:  # whatever the converter runs into
+        return f"<code>{escape(source, quote=False)}</code>"
+
+
 class _Renderer(IPythonRenderer):
-    """Stock rendering, except that tags which are not let through are shown as they were typed.
+    """Stock rendering, except that tags which are not let through are shown as they were typed, and formulas are MathML.
 
     An attached picture is named by its number; a missing one is said instead of ending the page.
     """
+
+    def inline_math(self, body: str) -> str:
+        # Between two prices is no formula.
+        return f"${escape(body, quote=False)}$" if body != body.strip() else formula(body)
+
+    def block_math(self, body: str) -> str:
+        return formula(body, "block")
+
+    def latex_environment(self, name: str, body: str) -> str:
+        return formula(f"\\begin{{{name}}}{body}\\end{{{name}}}", "block")
 
     def block_html(self, html: str) -> str:
         return super().block_html(html) if _is_allowed(html) else f"<p>{escape(html)}</p>"
@@ -133,7 +173,12 @@ def clean_markdown(source: str, pictures: Sequence[str] = ()) -> str:
     if _nesting(page) > MAX_NESTING:
         raise ValueError("nested too deep")
     return nh3.clean(
-        page, tags=_TAGS, attributes=_ATTRIBUTES, attribute_filter=_attribute, url_schemes=_SCHEMES, link_rel=None
+        page,
+        tags=_TAGS | _MATHML,
+        attributes=_ATTRIBUTES,
+        attribute_filter=_attribute,
+        url_schemes=_SCHEMES,
+        link_rel=None,
     )
 
 
@@ -161,6 +206,22 @@ _TAGS = {
 }  # fmt: skip
 _ATTRIBUTES = {"*": {"align", "title"}, "a": {"href"}, "img": {"alt", "src"}, "ol": {"start"}}
 _ATTRIBUTES |= {"div": {"class"}, "span": {"class"}}
+_MATHML = {
+    "math", "menclose", "mfrac", "mi", "mn", "mo", "mover", "mphantom", "mroot", "mrow", "mspace", "msqrt", "mstyle", "msub",
+    "msubsup", "msup", "mtable", "mtd", "mtext", "mtr", "munder", "munderover",
+}  # fmt: skip
+"""Made from formulas only: whoever types such tags sees them as typed."""
+_ATTRIBUTES |= {
+    "math": {"display"},
+    "menclose": {"notation"},
+    "mfrac": {"linethickness"},
+    "mi": {"mathvariant"},
+    "mo": {"fence", "form", "maxsize", "minsize", "stretchy"},
+    "mspace": {"width"},
+    "mstyle": {"displaystyle", "scriptlevel"},
+    "mtd": {"columnalign"},
+}
+_NAMES = re.compile(r"\\operatorname\b\*?")
 _SCHEMES = {"http", "https", "mailto", "data", "attachment"}
 _TAG = re.compile(r"</?\s*([a-zA-Z][^\s/>]*)")
 _LINK = re.compile(r"(https?://|mailto:|#)\S*\Z")

@@ -12,6 +12,8 @@ from fractions import Fraction
 
 from dhkit.wire import ARITIES, FORMAT, MAX_ASSUMED, MAX_DEPTH, MAX_DIGITS, MAX_NODES, MAX_TEXT
 
+NO_ANSWER = "What arrived is not what check hands in"
+
 
 class Malformed(ValueError):
     """The packet breaks the wire format; the message is a sentence for the student."""
@@ -153,11 +155,11 @@ class _Reader:
         if isinstance(node, list):
             return tuple(self.value(item, depth + 1) for item in node)
         if not isinstance(node, dict) or len(node) != 1:
-            raise Malformed("the answer is not in the wire format")
+            raise Malformed(NO_ANSWER)
         ((kind, content),) = node.items()
         read = getattr(self, f"_{kind}", None) if kind in _TAGGED else None
         if read is None:
-            raise Malformed("the answer is not in the wire format")
+            raise Malformed(NO_ANSWER)
         return read(content, depth)
 
     def _blank(self, content: object, depth: int) -> Blank:
@@ -171,7 +173,7 @@ class _Reader:
 
     def _float(self, content: object, depth: int) -> Number:
         if content not in ("nan", "inf", "-inf"):
-            raise Malformed("the answer is not in the wire format")
+            raise Malformed(NO_ANSWER)
         return Number(float(content))
 
     def _complex(self, content: object, depth: int) -> Number:
@@ -184,24 +186,24 @@ class _Reader:
     def _rat(self, content: object, depth: int) -> Number:
         numerator, denominator = self._pair(content, depth)
         if not isinstance(numerator, int) or not isinstance(denominator, int) or denominator == 0:
-            raise Malformed("the answer is not in the wire format")
+            raise Malformed(NO_ANSWER)
         return Number(Fraction(numerator, denominator))
 
     def _pair(self, content: object, depth: int) -> tuple[int | float | Fraction, int | float | Fraction]:
         if not isinstance(content, list) or len(content) != 2:
-            raise Malformed("the answer is not in the wire format")
+            raise Malformed(NO_ANSWER)
         first, second = (self._real(item, depth + 1) for item in content)
         return first, second
 
     def _real(self, node: object, depth: int) -> int | float | Fraction:
         part = self.value(node, depth)
         if not isinstance(part, Number) or isinstance(part.value, complex):
-            raise Malformed("the answer is not in the wire format")
+            raise Malformed(NO_ANSWER)
         return part.value
 
     def _const(self, content: object, depth: int) -> Constant:
         if content not in ("pi", "E", "I"):
-            raise Malformed("the answer is not in the wire format")
+            raise Malformed(NO_ANSWER)
         return Constant(content)
 
     def _sym(self, content: object, depth: int) -> Symbol:
@@ -209,7 +211,7 @@ class _Reader:
 
     def _call(self, content: object, depth: int) -> Call:
         if not isinstance(content, list) or len(content) < 2 or not isinstance(content[0], str):
-            raise Malformed("the answer is not in the wire format")
+            raise Malformed(NO_ANSWER)
         if content[0] not in ARITIES:
             raise Malformed("the answer uses a function that is not known here")
         arity = ARITIES[content[0]]
@@ -225,12 +227,12 @@ class _Reader:
 
     def _dict(self, content: object, depth: int) -> Record:
         if not isinstance(content, list) or not all(isinstance(item, list) and len(item) == 2 for item in content):
-            raise Malformed("the answer is not in the wire format")
+            raise Malformed(NO_ANSWER)
         return Record(tuple((_text(key), self.value(item, depth + 1)) for key, item in content))
 
     def _set(self, content: object, depth: int) -> Value:
         if not isinstance(content, list):
-            raise Malformed("the answer is not in the wire format")
+            raise Malformed(NO_ANSWER)
         return tuple(self.value(item, depth + 1) for item in content)
 
     def _function(self, content: object, depth: int) -> Function:
@@ -266,7 +268,7 @@ _TAGGED = (
 
 def _text(content: object) -> str:
     if not isinstance(content, str) or len(content) > MAX_TEXT:
-        raise Malformed("the answer is not in the wire format")
+        raise Malformed(NO_ANSWER)
     return content
 
 
@@ -274,5 +276,5 @@ def _bounded(number: int | float) -> int | float:
     if isinstance(number, int) and number.bit_length() > MAX_DIGITS * 4:
         raise Malformed("an integer of the answer is out of bounds")
     if isinstance(number, float) and not math.isfinite(number):
-        raise Malformed("the answer is not in the wire format")
+        raise Malformed(NO_ANSWER)
     return number

@@ -265,8 +265,7 @@ def test_feedback_runs_no_script_of_a_student(ours):
     for page in (ours / "feedback").rglob("*.html"):
         tree = BeautifulSoup(page.read_text(), "html.parser")
         harmless(tree.body)
-        scripts = [(script.get("src", "")[:29], script.get("type")) for script in tree.head.find_all("script")]
-        assert scripts == [("https://cdnjs.cloudflare.com/", None), ("", "text/x-mathjax-config")]
+        assert not tree.find_all(["script", "link", "iframe", "object", "embed", "form"])
     page = (ours / "feedback/scripts/scara/scara.html").read_text()
     assert "Content-Security-Policy" in page.partition("<title>")[0]
     assert "&lt;script&gt;alert('student')&lt;/script&gt;" in page

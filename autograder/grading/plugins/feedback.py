@@ -10,6 +10,7 @@ from typing import Any
 from jinja2 import BytecodeCache, Environment
 from jinja2.bccache import Bucket
 from nbconvert.exporters.html import HTMLExporter
+from nbgrader.api import Student
 from nbgrader.converters import GenerateFeedback
 from nbgrader.converters.base import NbGraderException
 from traitlets.config import Config
@@ -43,7 +44,7 @@ _COMPILED = _Compiled()
 
 
 class FeedbackExporter(HTMLExporter):
-    """The feedback page: nbgrader's, with a summary on top and no script but that for formulas."""
+    """The feedback page: nbgrader's, with a summary on top, and nothing that is loaded or runs: it can be read offline."""
 
     def __init__(self, config: Config | None = None, **kw: Any) -> None:
         own = deepcopy(config or Config())
@@ -83,12 +84,13 @@ class FeedbackPages(ChosenStudents, GenerateFeedback):
         for _ in range(_TRIES):
             with reading(self.coursedir.db_url) as session:
                 found = {name: one for (_, name), one in stored_notebooks(session, exercise, student).items()}
+                whose = _in_full(session.get(Student, student), student)
             names = [path.stem for path in sorted(self.folder(student).glob("*.ipynb"))]
             if not self.force and all(
                 name in found and found[name].has_page(target / f"{name}.html") for name in names
             ):
                 return
-            pages = {f"{name}.html": self._page(student, name, found.get(name)) for name in names}
+            pages = {f"{name}.html": self._page(student, whose, name, found.get(name)) for name in names}
             with writing(self.coursedir.db_url) as session:
                 now = {name: one for (_, name), one in stored_notebooks(session, exercise, student).items()}
                 if any(now[name].shown() != found[name].shown() for name in names):
@@ -103,7 +105,7 @@ class FeedbackPages(ChosenStudents, GenerateFeedback):
             return
         raise CourseError("somebody is marking it at this moment; run the command again")
 
-    def _page(self, student: str, name: str, stored: StoredNotebook | None) -> bytes:
+    def _page(self, student: str, whose: str, name: str, stored: StoredNotebook | None) -> bytes:
         """The feedback page of a graded notebook."""
         exercise, path = self.coursedir.assignment_id, self.folder(student) / f"{name}.ipynb"
         graded_again = f"run: autograder grade {exercise}"
@@ -111,9 +113,16 @@ class FeedbackPages(ChosenStudents, GenerateFeedback):
             raise CourseError(f"the gradebook does not know {path}; {graded_again}")
         if stored.mark is not None and stored.mark.graded != digest_of(path):
             raise CourseError(f"{path} is not what the gradebook holds; {graded_again}")
-        resources = {"unique_key": name, "output_files_dir": f"{name}_files", "stored": replace(stored, mark=None)}
+        resources: dict[str, Any] = {"unique_key": name, "output_files_dir": f"{name}_files", "whose": whose}
+        resources["stored"] = replace(stored, mark=None)
         resources["nbgrader"] = {
             "student": student, "assignment": exercise, "notebook": name, "db_url": self.coursedir.db_url
         }  # fmt: skip
         page, _ = self.exporter.from_filename(str(path), resources=resources)
         return page.encode()
+
+
+def _in_full(student: Student | None, id: str) -> str:
+    """The name of a student with the id; the id alone where nobody entered a name."""
+    name = " ".join(filter(None, (student.first_name, student.last_name))) if student is not None else ""
+    return f"{name} ({id})" if name else id

@@ -192,6 +192,7 @@ def _summary(check: NotebookNode, stored: StoredNotebook) -> dict:
         "title": known.title if known else marks["grade_id"],
         "score": marks["score"],
         "points": marks["points"],
+        "percent": _percent(marks["score"], marks["points"]),
         "note": record.note if record else "",
         "line": " ".join([*feedback.split(), *_by_hand(stored, marks["grade_id"], answer_id(marks["grade_id"]))]),
     }
@@ -203,9 +204,14 @@ def _open_problems(checks: Container[str], stored: StoredNotebook) -> Iterator[d
         said = _by_hand(stored, name, name)
         if name not in checks and (grade.score or said):
             yield {
-                "grade_id": name, "title": "Open problem", "score": grade.score, "points": grade.max_score,
+                "grade_id": name, "title": "Open problem" if grade.max_score else "Open problem (bonus)",
+                "score": grade.score, "points": grade.max_score, "percent": _percent(grade.score, grade.max_score),
                 "note": "", "line": " ".join(said),
             }  # fmt: skip
+
+
+def _percent(earned: float, most: float) -> int:
+    return round(100 * min(1.0, max(0.0, earned / most))) if most else 0
 
 
 def _by_hand(stored: StoredNotebook, check: str, commented: str) -> list[str]:
