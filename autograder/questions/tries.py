@@ -9,9 +9,8 @@ from sympy import Matrix, cos, pi, sin
 from autograder.judge import Question, mistake
 from autograder.judge.steps import change_cell, negate
 
-a2, a3, d1, d2, d3, r3, r30, t1, t2, t4, theta, L1, L2, L4, D3 = sympy.symbols(
-    "a2 a3 d1 d2 d3 r3 r30 t1 t2 t4 theta L1 L2 L4 D3"
-)
+a2, a3, d1, d2, t1, t2, t4, theta, L1, L2, L4, D3 = sympy.symbols("a2 a3 d1 d2 t1 t2 t4 theta L1 L2 L4 D3")
+d3, r3, r30, theta4 = sympy.symbols("d_3 r_3 r_30 theta_4")
 
 _ROT_Y = Matrix([[cos(theta), 0, sin(theta), 0], [0, 1, 0, 0], [-sin(theta), 0, cos(theta), 0], [0, 0, 0, 1]])
 _K4 = Matrix(
@@ -147,7 +146,7 @@ TRIES = (
         ),
     ),
     Question(
-        "try.direct_models.upright",
+        "try.recursion.upright",
         [np.pi / 2, -np.pi / 2],
         (
             mistake("degrees", 0.5, "**In radians, please.**", np.degrees),
@@ -216,7 +215,7 @@ TRIES = (
         ),
     ),
     Question(
-        "try.inverse_models.kr210_reach",
+        "try.singularities.kr210_reach",
         [1.25 + _FOREARM - _BEHIND, 1.25 + _FOREARM + _BEHIND],
         (
             mistake(
@@ -263,7 +262,7 @@ TRIES = (
     ),
     Question(
         "try.scara_s600.down",
-        [[1, d3, pi, -(r3 + r30), 0], [0, 0, 0, 0, t4]],
+        [[1, d3, pi, -(r3 + r30), 0], [0, 0, 0, 0, theta4]],
         (
             mistake(
                 "turn_of_joint_4",
@@ -281,7 +280,7 @@ TRIES = (
                 "half_turn_stays",
                 0.5,
                 "**The half turn moved up by one row.**",
-                lambda right: [[*right[0][:2], 0, *right[0][3:]], [0, 0, pi, 0, t4]],
+                lambda right: [[*right[0][:2], 0, *right[0][3:]], [0, 0, pi, 0, theta4]],
             ),
             mistake("constant_forgotten", 0.5, "**$r_{30}$ is gone.**", change_cell(1, "d", lambda _: -r3)),
         ),
