@@ -78,7 +78,7 @@ def submissions(small, released):
         "not_a_notebook": ("[]", 0, UNREADABLE, "not a Jupyter notebook"),
         "deleted_check": (delete("scara-T04"), 20, RIGHT, "the check cell of T04 was missing"),
         "deleted_answer": (delete("scara-T04-answer"), 10, ["error", "right", "right"], "the answer cell of T04 was missing"),
-        "deleted_both": (delete("scara-d2_sign", "scara-d2_sign-answer"), 16, ["right", "error", "right"], "check cell of d2_sign was missing"),
+        "deleted_both": (delete("scara-d2_sign", "scara-d2_sign-answer"), 16, ["right", "error", "right"], "the cells of d2_sign were missing (deleted, or asked only later)"),
         "duplicated": (edited(lambda nb: nb.cells.append(deepcopy(cell(nb, "scara-T04")))), 20, RIGHT, "was there 2 times"),
         "edited_check": (edited(lambda nb: cell(nb, "scara-T04").update(source="pass")), 20, RIGHT, "had been edited"),
         "moved_check": (edited(move), 20, RIGHT, "stood before its answer"),

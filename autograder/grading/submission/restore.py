@@ -74,8 +74,11 @@ def _choose(submitted: NotebookNode, tracked: dict[str, NotebookNode]) -> tuple[
     for index, cell in enumerate(submitted.cells):
         if (name := grade_id(cell)) is not None and name in tracked:
             claims.setdefault(name, []).append(index)
+    pairs = {name: answer_id(name) for name in tracked if answer_id(name) in tracked}
+    gone = {name for name, answer in pairs.items() if name not in claims and answer not in claims}
     chosen: dict[str, int] = {}
-    repairs: list[str] = []
+    lost = len(gone) == len(pairs) > 1
+    repairs = ["no question was found by the ids of its cells; an editor had dropped them"] if lost else []
     for name, cell in tracked.items():
         places = claims.get(name, [])
         if is_check(cell) and (answers := claims.get(answer_id(name), [])):
@@ -84,7 +87,12 @@ def _choose(submitted: NotebookNode, tracked: dict[str, NotebookNode]) -> tuple[
                 chosen[answer_id(name)] = max(place for place in answers if place < places[-1])
         if places:
             chosen[name] = places[-1]
-        repairs += _repairs(name, cell, claims.get(name, []), chosen.get(name), submitted)
+        if lost:
+            continue
+        if name in gone:
+            repairs.append(f"the cells of {_short(name)} were missing (deleted, or asked only later)")
+        elif check_of_answer(name) not in gone:
+            repairs += _repairs(name, cell, claims.get(name, []), chosen.get(name), submitted)
     return chosen, repairs
 
 
@@ -110,7 +118,7 @@ def _kernel_repair(kernel: str | None, released: NotebookNode) -> list[str]:
 
 
 def _in_words(name: str, cell: NotebookNode) -> str:
-    short = name.partition("-")[2] or name
+    short = _short(name)
     if is_check(cell):
         return f"the check cell of {short}"
     if (answered := check_of_answer(short)) is not None:
@@ -118,6 +126,10 @@ def _in_words(name: str, cell: NotebookNode) -> str:
     if keeps_source(cell):
         return "the answer to the open problem"
     return f"the locked cell {name}"
+
+
+def _short(name: str) -> str:
+    return name.partition("-")[2] or name
 
 
 def _rebuilt(original: NotebookNode, submitted: NotebookNode) -> NotebookNode:

@@ -60,6 +60,22 @@ def test_a_deleted_check_comes_back_behind_its_answer(right, released):
     assert repairs(nb) == ["the check cell of T04 was missing"]
 
 
+def test_a_question_that_was_not_in_the_notebook_is_told_once_and_without_blame(right, released):
+    for name in ("scara-T04-answer", "scara-T04"):
+        del right.cells[place(right, name)]
+    nb = restore(right, released)
+    sound(nb, released)
+    assert repairs(nb) == ["the cells of T04 were missing (deleted, or asked only later)"]
+
+
+def test_ids_that_an_editor_dropped_are_told_once(right, released):
+    for one in right.cells:
+        one.metadata.pop("nbgrader", None)
+    nb = restore(right, released)
+    sound(nb, released)
+    assert repairs(nb) == ["no question was found by the ids of its cells; an editor had dropped them"]
+
+
 def test_a_deleted_check_comes_back_behind_cells_that_finish_the_answer(right, released):
     right.cells[place(right, "scara-T04")] = new_code_cell("T04 = better(T04)")
     nb = restore(right, released)
