@@ -280,7 +280,8 @@ def _draw_from_above(ax, turn, phi, sizes):
         ax.plot(*zip(start, end), color=INK, lw=1.1, ls=(0, (4, 2)), zorder=2)
     ax.plot(*zip((0, 0), tip), color=INK, lw=1.2, ls=CENTRE_LINE, zorder=5)
     away = 0.055 * unit
-    write(ax, 0.5 * rho * along - away * across, r"$\rho$")
+    if abs(rho) > 1e-9:
+        draw_dimension(ax, (0, 0), rho * along, r"\rho", -np.sign(rho) * 2.4 * away)
     write(ax, rho * along + 0.5 * side * across + away * np.sign(p1 * np.sin(phi) or 1) * along, "$H$")
     write(ax, 0.5 * tip + away * unit_vector(np.arctan2(*tip[::-1]) + np.pi / 2), "$r$")
     write(ax, tip + 1.4 * away * unit_vector(np.arctan2(*tip[::-1])), "$(x, y)$")
