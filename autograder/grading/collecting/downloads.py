@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
 from pathlib import Path, PurePath
@@ -123,21 +123,34 @@ def _platform_level(files: Sequence[Packed]) -> int | None:
 
 
 def _without_group(found: Sequence[Piece], roster: Roster) -> list[Piece]:
-    """Without the name of a group that Moodle wrote before every name: too often for chance, or the roster knows better."""
+    """Without the name of a group that Moodle wrote before a name."""
     names = {piece.sender.name for piece in found if piece.sender.platform == "moodle" and piece.sender.name}
-    first = min(names, default="")
-    parts = [first[: hyphen.end()] for hyphen in re.finditer("-", first)]
-    group = next((part for part in reversed(parts) if all(name.startswith(part) for name in names)), "")
-    rests = [name.removeprefix(group) for name in names]
-    listed = roster.of_group(group.rstrip("-")) or all(map(roster.named, rests))
-    if not group or any(map(roster.named, names)) or not (len(names) >= _A_GROUP or listed):
-        return list(found)
+    common = _common_group(names, roster)
+    alone = {name: name.removeprefix(common or _own_group(name, roster)) for name in names}
     return [
-        replace(piece, sender=replace(piece.sender, name=piece.sender.name.removeprefix(group)))
-        if piece.sender.name in names
+        replace(piece, sender=replace(piece.sender, name=alone[piece.sender.name]))
+        if piece.sender.name in alone
         else piece
         for piece in found
     ]
+
+
+def _common_group(names: Set[str], roster: Roster) -> str:
+    """The group before every name: too often for chance, or the roster knows it, or those behind it."""
+    first = min(names, default="")
+    parts = [first[: hyphen.end()] for hyphen in re.finditer("-", first)]
+    group = next((part for part in reversed(parts) if all(name.startswith(part) for name in names)), "")
+    known = roster.of_group(group.rstrip("-")) or all(roster.named(name.removeprefix(group)) for name in names)
+    return group if group and not any(map(roster.named, names)) and (len(names) >= _A_GROUP or known) else ""
+
+
+def _own_group(name: str, roster: Roster) -> str:
+    """The group before a name, where the roster knows its member by the rest."""
+    for hyphen in () if roster.named(name) else re.finditer("-", name):
+        members = roster.of_group(name[: hyphen.start()])
+        if any(member in members for member in roster.named(name[hyphen.end() :])):
+            return name[: hyphen.end()]
+    return ""
 
 
 def _flat(

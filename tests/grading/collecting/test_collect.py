@@ -289,6 +289,14 @@ def test_one_alone_of_a_group_is_found_on_the_roster(downloads, collect, root):
     assert statuses(collect(made)) == {"s0": "collected", "s1": "missing"}
 
 
+def test_members_of_several_groups_are_found_behind_their_groups(downloads, collect, root):
+    lines = ["ada,Lovelace,Ada,Team A", "ben,B,Ben,Team B; Tuesday", "cid,C,Cid,", "ann,Curie,Anne-Marie,Anne"]
+    (root / "students.csv").write_text("\n".join(["id,last_name,first_name,groups", *lines]))
+    names = ["Team A-Ada Lovelace", "Team B-Ben B", "Cid C", "Anne-Marie Curie"]
+    made = downloads.moodle([student(downloads, name, right(downloads, name)) for name in names])
+    assert statuses(collect(made)) == dict.fromkeys(["ada", "ben", "cid", "ann"], "collected")
+
+
 def test_a_double_name_is_no_group_and_a_name(downloads, collect, root):
     people = [student(downloads, name, right(downloads, name)) for name in ("Anne-Marie A", "Anne-Sophie B", "Ben C")]
     assert statuses(collect(downloads.moodle(people))).keys() == {"Anne-Marie A", "Anne-Sophie B", "Ben C"}
