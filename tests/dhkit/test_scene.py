@@ -180,8 +180,7 @@ assert "anywidget" not in sys.modules"""
 
 
 def test_the_grader_sees_still_drawings():
-    from autograder.sandbox import bubblewrap
-
+    bubblewrap = pytest.importorskip("autograder.sandbox.bubblewrap", reason="the kit alone is installed")
     assert bubblewrap._kernel_environment()["DHKIT_STILL"]
 
 
@@ -243,8 +242,7 @@ def test_the_program_cannot_end_its_own_element():
 @pytest.fixture(scope="module")
 def catalogue():
     """State, joint values and hand poses of each serial robot of the catalogue."""
-    from autograder.reference import robots
-
+    robots = pytest.importorskip("autograder.reference", reason="the kit alone is installed").robots
     rng = np.random.default_rng(1)
     cases = {}
     for name in robots.names():

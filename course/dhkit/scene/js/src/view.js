@@ -216,7 +216,8 @@ export class View {
       return Math.abs(x) > 0.94 || Math.abs(y) > 0.94;
     });
     for (let steps = 0; steps < 40 && outside(); steps++) {
-      this.camera.position.copy(this.controls.target).add(this.#offset().multiplyScalar(1.03));
+      const offset = this.#offset().multiplyScalar(1.03);
+      this.camera.position.copy(this.controls.target).add(offset);
       this.camera.updateMatrixWorld();
     }
     this.controls.update();
