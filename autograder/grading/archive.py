@@ -11,6 +11,7 @@ from .course import Course
 from .errors import CourseError
 from .gradebook import path_of, writing
 from .roster import FILE as ROSTER
+from .submission.kept import FOLDER
 from .term import FILE as TERM
 
 _STEPS = ("submitted", "autograded", "feedback", "release", "source")
@@ -56,7 +57,7 @@ def clear(course: Course) -> None:
     """Remove what belongs to the term that was archived: gradebook, submissions, pages, receipts and roster."""
     for name in _CLEARED:
         shutil.rmtree(course.step(name), ignore_errors=True)
-    for name in _PAGES:
+    for name in (*_PAGES, str(FOLDER)):
         shutil.rmtree(course.root / name, ignore_errors=True)
     for path in (path_of(course.db_url), course.root / ROSTER):
         if path is not None:

@@ -42,6 +42,7 @@ from ..inert import terminal_text
 from ..store import StoredNotebook
 from ..submission import trial
 from ..submission.execution import Execution, Mode, confirm, execute
+from ..submission.kept import FOLDER
 from ..submission.restore import restore
 
 _TRAITS = {"bytes": Integer, "seconds": Float, "count": Integer}
@@ -82,9 +83,12 @@ class SandboxExecute(NbGraderPreprocessor):
     ) -> Execution:
         """Run a restored notebook with the files of its folder and of the released one beside it.
 
-        The sandbox does not show the `course`. A `warm` kernel may share its parent with others.
+        The sandbox does not show the `course`. A `warm` kernel may share its parent with others. What was kept of a
+        run of the same is taken in place of another.
         """
-        return execute(nb, (folder, released.parent), student, self.limits, cast(Mode, self.mode), (course,), warm)
+        kept = course / FOLDER / released.parent.name / student / f"{released.stem}.json"
+        mode = cast(Mode, self.mode)
+        return execute(nb, (folder, released.parent), student, self.limits, mode, (course,), warm, kept)
 
     def run_alone(self, nb: NotebookNode, folder: Path, released: Path, student: str, course: Path) -> Execution:
         """Run a notebook for the second and last time, because the first time ended in doubt.

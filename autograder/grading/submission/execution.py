@@ -9,6 +9,7 @@ import json
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Literal
 
@@ -21,6 +22,7 @@ from autograder.sandbox import CellRun, Limits, Run, read_folders, run_notebook
 from ..cells import answer_id, check_cells, check_name, grade_id, is_check, notebook_record, question_id
 from ..errors import CourseError
 from ..inert import inert_outputs
+from .kept import KeptRun, conditions, digest_of_work, keep, read_kept
 
 Mode = Literal["bwrap", "none"]
 _NAMES_SHOWN = 5
@@ -73,8 +75,9 @@ def execute(
     mode: Mode,
     hidden: tuple[Path, ...] = (),
     warm: bool = True,
+    kept: Path | None = None,
 ) -> Execution:
-    """Run the restored notebook `nb` of `student`.
+    """Run the restored notebook `nb` of `student`, or take what was kept of a run of the same.
 
     Parameters
     ----------
@@ -86,6 +89,8 @@ def execute(
         Folders of the host that the sandbox must not show, the course's own above all.
     warm : bool
         Whether its kernel may share a parent with others.
+    kept : Path, optional
+        The file in which a run is kept that nobody doubts (see `kept`).
 
     Raises
     ------
@@ -96,28 +101,55 @@ def execute(
     if reason := record.unreadable:
         unread = {name: Evidence(None, None, reason, "unreadable") for name in check_cells(nb)}
         return Execution(record.submission, {}, unread)
+    folders = list(folders)
+    ready = _with_kit(nb)
+    files, left_out = read_folders(folders, limits.disk // 2)
+    work = digest_of_work(ready, files)
+    key = f"{work} {conditions(limits, mode)}"
+    probes = partial(_probes, nb, student, work)
+    if kept is not None and (found := read_kept(kept, key)) is not None and found.sent == probes(found.run):
+        return _execution(nb, found, left_out)
     sent: dict[int, list] = {}
 
     def probe(index: int, cell: NotebookNode, outputs: list) -> str | None:
         check = check_name(cell)
-        arguments = _arguments(check, student, record.submission, outputs) if check else None
+        arguments = _arguments(check, student, work, outputs) if check else None
         if check is None or arguments is None:
             return None
         sent[index] = arguments
         call = f"answer_probes({question_id(check)!r}, {json.dumps(arguments)!r})"
         return f"from dhkit.check import answer_probes\n{call}"
 
-    folders = list(folders)
-    files, left_out = read_folders(folders, limits.disk // 2)
     shut = (*hidden, *folders)
-    run = run_notebook(_with_kit(nb), files=files, limits=limits, mode=mode, followup=probe, hidden=shut, warm=warm)
+    run = run_notebook(ready, files=files, limits=limits, mode=mode, followup=probe, hidden=shut, warm=warm)
+    execution = _execution(nb, KeptRun(run, sent), left_out)
+    if kept is not None and execution.doubt is None:
+        keep(kept, key, KeptRun(run, sent))
+    return execution
+
+
+def _execution(nb: NotebookNode, found: KeptRun, left_out: list[str]) -> Execution:
+    """What a run of the restored notebook says of each question."""
+    run = found.run
     counts = {index: count for count, index in enumerate(sorted(run.cells), 1)}
     outputs = {index: inert_outputs(cell.outputs, counts[index]) for index, cell in run.cells.items()}
     checks = {index: name for index in run.cells if (name := check_name(nb.cells[index]))}
-    evidence = {name: _evidence(nb, index, name, run, sent) for index, name in checks.items()}
+    evidence = {name: _evidence(nb, index, name, run, found.sent) for index, name in checks.items()}
     message = run.message or _left_out(left_out)
     doubt = run.doubt or next((cell.message for cell in run.cells.values() if _missed_import(cell)), None)
-    return Execution(record.submission, outputs, evidence, message, doubt, run.starved, run.lived)
+    submission = notebook_record(nb).submission
+    return Execution(submission, outputs, evidence, message, doubt, run.starved, run.lived)
+
+
+def _probes(nb: NotebookNode, student: str, work: str, run: Run) -> dict[int, list]:
+    """What would be asked now of the functions that a run handed in."""
+    asked = {
+        index: _arguments(check, student, work, cell.outputs)
+        for index, cell in run.cells.items()
+        if (check := check_name(nb.cells[index]))
+    }
+    # What was kept went through JSON.
+    return {index: json.loads(json.dumps(arguments)) for index, arguments in asked.items() if arguments is not None}
 
 
 def confirm(again: Callable[[], Execution], find_fault: Callable[[float], str | None]) -> Execution:
@@ -167,15 +199,15 @@ def _missed_import(cell: CellRun) -> bool:
     return cell.status == "error" and cell.message.startswith(("ModuleNotFoundError", "ImportError")) and known
 
 
-def _arguments(check: str, student: str, stamp: str, outputs: list) -> list | None:
+def _arguments(check: str, student: str, work: str, outputs: list) -> list | None:
     """Arguments to try a student's function with, None if the check cell handed in no function."""
     packet = last_packet(outputs)
     answer = packet.get("answer") if isinstance(packet, dict) else None
     if not isinstance(answer, dict) or "function" not in answer:
         return None
     question = questions.find(question_id(check))
-    # The seed follows from the submission: grading it again, here or with nbgrader, asks the same things.
-    seed = int.from_bytes(hashlib.sha256(f"{stamp} {question.id}".encode()).digest()[:8])
+    # The seed follows from what was handed in: grading it again, here or with nbgrader, asks the same things.
+    seed = int.from_bytes(hashlib.sha256(f"{work} {question.id}".encode()).digest()[:8])
     return question.probes(student, seed)
 
 
