@@ -38,7 +38,6 @@ from .plugins.autograde import (
 from .plugins.feedback import FeedbackPages
 from .plugins.preprocessors import SandboxExecute
 from .results import Result, graded_notebooks, read_result
-from .roster import read_roster
 from .store import StoredNotebook, refresh_dates, stored_notebooks
 from .submission.execution import Execution
 from .submission.reading import fingerprint
@@ -130,8 +129,13 @@ def grade(
 
 def _said_elsewhere(course: Course, exercise: str) -> dict[str, tuple[str, ...]]:
     """What the roster and the platform say of students, beside the notebooks."""
+    dates = deadlines(course.root, exercise)
     found: dict[str, tuple[str, ...]] = {
-        person.id: ("exempt",) for person in read_roster(course.root).people if exercise in person.exempt
+        person.id: (
+            *(["exempt"] if exercise in person.exempt else []),
+            *([f"had until {until}"] if (until := dates.had_until(person.id)) else []),
+        )
+        for person in dates.roster.people
     }
     for student, receipt in read_receipts(receipts_folder(course.root, exercise)).items():
         if receipt.late and receipt.handed_in is None:

@@ -126,6 +126,13 @@ class Deadlines:
             return None
         return more_time(person, self.exercise, due, self.term)
 
+    def had_until(self, student: str) -> str:
+        """Until when a student with more time had it, in the course's own time; empty where there is no more."""
+        more, due = self.extension(student), self.due
+        if not more or due is None:
+            return ""
+        return f"{(due + more).replace(tzinfo=UTC).astimezone(self.term.zone):%Y-%m-%d %H:%M}"
+
     def apply(self, submission: SubmittedAssignment) -> None:
         """Enter the dates into a row of the gradebook; what the course does not say stays as it is."""
         if self.due is not None:

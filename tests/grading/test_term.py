@@ -127,6 +127,10 @@ def test_more_time_counts_without_running_anything_again(late, without_kernels, 
     assert "ben: scara=+2d" in capsys.readouterr().out
     found = graded(late, without_kernels, capsys)
     assert {line["status"] for line in found.values()} == {"unchanged"} and found["ben"]["score"] == 4
+    assert "had until 2026-10-17 00:09" in found["ben"]["found"] and "had until" not in found["ann"]["found"]
+    assert cli.main(["export", "--to", str(late / "grades.csv"), "--course", str(late)]) == 0
+    rows = {row["student_id"]: row["duedate"] for row in csv.DictReader((late / "grades.csv").open())}
+    assert (rows["ann"], rows["ben"]) == ("2026-10-14 22:09:00", "2026-10-16 22:09:00")
     assert found["ben"]["moved"] == ["points off for being late: 0.8 -> 0"] and found["ann"]["moved"] == []
     assert "late by" not in (late / "feedback/ben/scara/scara.html").read_text()
     assert cli.main(["allow", "ben", "scara", "--nothing", "--course", str(late)]) == 0

@@ -64,7 +64,12 @@ def _row(gradebook: Gradebook, assignment: Assignment, student: Student) -> dict
     except MissingEntry:
         return row | {"max_score": assignment.max_score}
     penalty = submission.late_submission_penalty
-    row |= {"timestamp": submission.timestamp, "raw_score": submission.score, "late_submission_penalty": penalty}
+    row |= {
+        "duedate": submission.duedate,
+        "timestamp": submission.timestamp,
+        "raw_score": submission.score,
+        "late_submission_penalty": penalty,
+    }
     row |= {"score": max(0.0, submission.score - penalty), "max_score": assignment.max_score}
     notes, bonus = [], submission.score
     for entry in read_entries(submission):
