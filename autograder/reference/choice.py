@@ -8,6 +8,7 @@ from .general import GeneralArm
 from .inverse import InverseModel
 from .pen import PenArm
 from .planar_arms import PlanarArm, Scara
+from .redundant import RedundantArm
 from .tables import DHTable
 
 CLASSES: dict[str, type[InverseModel]] = {
@@ -20,6 +21,7 @@ CLASSES: dict[str, type[InverseModel]] = {
     "arm of three joints for a point": PointArm,
     "decoupled arm": Decoupled,
     "arm of six turns": GeneralArm,
+    "arm of seven joints": RedundantArm,
 }
 """The classes of robots that have a closed-form inverse model, by their names."""
 

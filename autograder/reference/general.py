@@ -20,6 +20,7 @@ _TRIED = 24  # poses by which the beginnings of a loop are judged
 _REAL = 1e-2  # imaginary part, in radians, up to which a root is worth a try: a double one loses half of its digits
 _COUNTED = 1e-3  # the same, up to which it should lead to a posture
 _FOUND = 1e-4  # radians within which a posture counts as found there
+_NEAR = 0.1  # the same, for a pose beside it
 _ASIDE = (1e-2, -1e-2, 1e-3, -1e-3)  # turns and shifts (in sizes of the arm) that lead away from a special pose
 _LOOKS = 2  # joints that a loop may begin with, for a pose where something may be missing
 
@@ -46,12 +47,13 @@ class SixTurns:
     Attributes
     ----------
     loop : Loop
-    beginnings : tuple of int
-        The joint that `six_turns` calls a, the best conditioned choice first.
+    beginnings : tuple of (int, bool)
+        The joint that `six_turns` calls a, and whether it goes round the loop backwards from there; the best
+        conditioned choice first.
     """
 
     loop: Loop
-    beginnings: tuple[int, ...]
+    beginnings: tuple[tuple[int, bool], ...]
 
     @classmethod
     def of(cls, loop: Loop) -> SixTurns:
@@ -60,28 +62,36 @@ class SixTurns:
         T = loop.links[0]
         for value, link in zip(rows, loop.links[1:]):
             T = T @ motion(False, value) @ link
-        gaps = []
-        for beginning in range(6):
-            found = cls(loop, (beginning,)).candidates(T, rows)
+
+        def gaps(beginning: tuple[int, bool], moved: np.ndarray) -> np.ndarray:
+            """How far from the known postures the nearest candidates are that poses beside theirs give."""
+            found = cls(loop, (beginning,)).candidates(T @ moved, rows)
             off = np.abs(np.angle(np.exp(1j * (found.rows - rows[:, None])))).max(axis=0)
-            gaps.append(np.where(found.valid, off, np.inf).min(axis=0))
-        gaps_of = np.array(gaps)
-        lost = (gaps_of > _FOUND).sum(axis=1)
-        order = np.lexsort((np.median(gaps_of, axis=1), lost))
-        missed = int((gaps_of.min(axis=0) > _FOUND).sum())
+            return np.where(found.valid, off, np.inf).min(axis=0)
+
+        beginnings = [(first, backwards) for first in range(6) for backwards in (False, True)]
+        found = np.array([gaps(each, np.eye(4)) for each in beginnings])
+        order = np.lexsort((np.median(found, axis=1), (found > _FOUND).sum(axis=1)))
+        best = [beginnings[each] for each in order]
+        beside = np.array([gaps(each, moved) for each in best[:_LOOKS] for moved in _BESIDE])
+        missed = int(((found.min(axis=0) > _FOUND) & (beside.min(axis=0) > _NEAR)).sum())
         if missed:
             raise ValueError(f"elimination is degenerate for it: it loses {missed} of {_TRIED} known postures")
-        return cls(loop, tuple(int(each) for each in order))
+        return cls(loop, tuple(best))
 
     def candidates(self, T: np.ndarray, near: np.ndarray, looks: int = 1) -> Candidates:
         """As `loop_arms.Algebra` has it; K = 16 for each of so many beginnings."""
         links = [link[None] for link in self.loop.links]
         loop = [*links[1:6], links[6] @ np.linalg.inv(T) @ links[0]]
         several = []
-        for beginning in self.beginnings[:looks]:
-            angles, apart = six_turns.candidates(loop[beginning:] + loop[:beginning])
+        for first, backwards in self.beginnings[:looks]:
+            around = loop[first:] + loop[:first]
+            if backwards:
+                around = [np.linalg.inv(link) for link in (*around[4::-1], around[5])]
+            angles, apart = six_turns.candidates(around)
+            angles = np.roll(-angles[::-1] if backwards else angles, first, axis=0)
             flags = np.where(apart > _COUNTED, Flag.STRETCHED, 0).astype(np.uint8)
-            several.append(Candidates(np.roll(angles, beginning, axis=0), apart <= _REAL, flags, flags > 255))
+            several.append(Candidates(angles, apart <= _REAL, flags, flags > 255))
         return Candidates.joined(several)
 
 

@@ -43,6 +43,13 @@ class Loop:
         """The same loop in another unit of length."""
         return Loop(tuple(in_unit(link, factor) for link in self.links), self.slides, self.joints)
 
+    def held(self, index: int, value: float) -> Loop:
+        """The loop with one of its joints held at a value, the others numbered anew."""
+        before, after = self.links[index : index + 2]
+        link = before @ motion(self.slides[index], np.array(value)) @ after
+        links = (*self.links[:index], link, *self.links[index + 2 :])
+        return Loop(links, self.slides[:index] + self.slides[index + 1 :], tuple(range(len(self.slides) - 1)))
+
     def reversed(self) -> Loop:
         """The loop walked from the tool to the base: its pose is the inverse one, its variables are the negative ones."""
         return Loop(tuple(np.linalg.inv(link) for link in self.links[::-1]), self.slides[::-1], self.joints[::-1])

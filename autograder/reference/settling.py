@@ -131,6 +131,7 @@ class Task:
         values = np.linalg.svd(self.jacobian(q[:, branch, pose].T), compute_uv=False)
         singular = values[:, -1] < _SINGULAR * values[:, 0]
         found = flags[branch, pose]
+        singular |= self.chain.joints > self.freedoms
         free = (found & Flag.FREE) != 0
         result = np.zeros_like(flags)
         result[branch, pose] = np.where(singular, np.where(free, found & ~Flag.LIMIT, Flag.STRETCHED), 0)
