@@ -54,6 +54,16 @@ Stanford arms, gantries, and arms of fewer joints that are such an arm with some
 >>> ur5.inverse(ur5.forward([0.3, -1.0, 1.2, 0.4, 0.0, 0.6])).free
 'q6 free'
 
+Any other six turns are solved by elimination, up to 16 postures; of seven joints one is named that is free.
+
+>>> bent = [*rows[:2], (0, -0.39, 0.2, 0, None), *rows[3:]]
+>>> general = Robot(DHTable.from_classic(bent))
+>>> len(general.inverse(general.forward([0.3, -1.0, 1.2, 0.4, 0.5, 0.6])))
+8
+>>> rail = Robot(DHTable.from_classic([(1, 0, half, None, 0), *rows]))
+>>> rail.inverse(rail.forward([0.2, 0.3, -1.0, 1.2, 0.4, 0.5, 0.6])).free
+'q1 free'
+
 **Families.** A singular or redundant posture names its free direction; `near` chooses the member that is reported.
 
 >>> aligned = arm.inverse(arm.forward([0.3, 0.4, 0.5, 0.6, 0, 0.7]), near=[0, 0, 0, 1.0, 0, 0.3])

@@ -111,7 +111,7 @@ class GeneralArm(LoopArm):
         self.anchors = {Flag.FREE_CHAIN: ()}
 
     def candidates(self, T: np.ndarray, near: np.ndarray) -> Candidates:
-        return Candidates.joined([_starts(near[:, None]), self._algebra.candidates(T, near)])
+        return Candidates.joined([starts(near[:, None]), self._algebra.candidates(T, near)])
 
     def closed_form(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Branches:
         start = np.stack([np.broadcast_to(self.map.row(i, near), len(poses)) for i in range(6)])
@@ -127,7 +127,7 @@ class GeneralArm(LoopArm):
         if len(doubtful):
             wished, T = start[:, doubtful], T[doubtful]
             beside = [self._algebra.candidates(T @ moved, wished, _LOOKS) for moved in _BESIDE]
-            others = [_starts(wished[:, None]), self._algebra.candidates(T, wished, _LOOKS), *beside]
+            others = [starts(wished[:, None]), self._algebra.candidates(T, wished, _LOOKS), *beside]
             again = self._listed(Candidates.joined(others), poses[doubtful], tol)
             found.q[:, :, doubtful], found.valid[:, doubtful] = again.q, again.valid
             found.flags[:, doubtful], found.excess[doubtful], found.failure[doubtful] = (
@@ -159,7 +159,7 @@ class GeneralArm(LoopArm):
         return f"posture {branch + 1}, at a limit" if flags & Flag.LIMIT else f"posture {branch + 1}"
 
 
-def _starts(rows: np.ndarray) -> Candidates:
+def starts(rows: np.ndarray) -> Candidates:
     """Row variables (6, K, N) from which Newton's method may lead to postures."""
     none = np.zeros(rows.shape[1:], dtype=np.uint8)
     return Candidates(rows, none == 0, none, none != 0)

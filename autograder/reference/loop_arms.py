@@ -10,9 +10,11 @@ from typing import Protocol
 import numpy as np
 
 from .inverse import Branches, InverseModel, JointMap
+from .limits import outside
 from .loop import Loop, in_unit
-from .settling import settled
+from .settling import Task, settled
 from .singularities import chain_mobility
+from .solutions import Batch
 from .status import Failure, Flag
 from .tables import DHTable
 
@@ -116,6 +118,22 @@ class LoopArm(InverseModel):
         q = np.stack([self.map.joint(i, rows[i]) for i in range(self.joints)])
         branches, reached = settled(self.chain, self.size, q, found.valid, found.flags, poses, tol)
         return branches, found.family & ~reached
+
+    def _slide_towards(self, batch: Batch, near: np.ndarray) -> None:
+        poses = self.chain.forward(batch.q)
+        super()._slide_towards(batch, near)
+        self._kept_on(batch, poses)
+
+    def _settle(self, batch: Batch, near: np.ndarray) -> np.ndarray:
+        poses = self.chain.forward(batch.q)
+        super()._settle(batch, near)
+        self._kept_on(batch, poses)
+        return np.where(batch.valid, outside(self, batch.q).max(axis=-1), np.inf)
+
+    def _kept_on(self, batch: Batch, poses: np.ndarray) -> None:
+        """Aligned joints that have slid are aligned to half of the digits only, where branches merge too."""
+        slid = batch.valid & ((batch.flags & Flag.FREE_LINE) != 0)
+        batch.q[slid] = Task(self.chain, self.size, 6).approached(batch.q[slid], poses[slid])[0]
 
     def unreachable(self, failure: Failure, excess: float) -> str:
         return f"no posture reaches the pose, the nearest one found misses it by {excess:.3g} m"

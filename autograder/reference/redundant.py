@@ -4,25 +4,25 @@ from __future__ import annotations
 
 import numpy as np
 
+from . import six_turns
 from .decoupled import Grouped
-from .general import SixTurns
+from .general import SixTurns, starts
 from .inverse import Branches
-from .loop import Loop
 from .loop_arms import Algebra, Candidates, LoopArm
 from .status import Flag
 from .tables import DHTable
 
 _GENERAL = 0.7  # a value of the free joint at which nothing is special
-_ASIDE = np.radians([sign * step for step in range(5, 181, 5) for sign in (1, -1)])
+_ASIDE = np.radians([sign * step for step in range(2, 181, 2) for sign in (1, -1)])
 _FIRST_CHOICE = (2, 6, 4, 0, 3, 1, 5)  # of free joints: the upper arm's turn, as the field has it, then the ends
 
 
 class RedundantArm(LoopArm):
     """Seven joints. Every pose has a family of postures, represented by the member whose free joint is near's.
 
-    The free joint is the first, in the order 3, 7, 5, 1, 4, 2, 6, that leaves an arm with a group of three joints; if
-    none does, one that leaves six turns. Branches are those of that arm. Where the wished value of the free joint is out
-    of reach, it is moved by multiples of 5 degrees.
+    The free joint is the first, in the order 3, 7, 5, 1, 4, 2, 6 and slides before turns, that leaves an arm with a group
+    of three joints; if none does, one that leaves six turns. Branches are those of that arm. Where the wished value of the
+    free joint is out of reach, it is moved in steps of 2 degrees (of a slide: of 3 % of the size).
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class RedundantArm(LoopArm):
         self.free_joint, self._general = self._chosen()
         kept = [i for i in range(7) if i != self.free_joint]
         grouped = isinstance(self._general, Grouped)
-        self.branch_count = 8 if grouped else 16
+        self.branch_count = 8 if grouped else six_turns.MOST + 1  # with what near leads to
         self.anchors = {}
         if isinstance(self._general, Grouped):
             self.anchors = {flag: tuple(kept[j] for j in joints) for flag, joints in self._general.anchors.items()}
@@ -50,19 +50,15 @@ class RedundantArm(LoopArm):
 
     def _chosen(self) -> tuple[int, Algebra]:
         """The free joint and the algebra of the others."""
-        for joint in _FIRST_CHOICE:
-            if not self.loop.slides[joint]:
-                try:
-                    return joint, Grouped.of(self.loop.held(joint, _GENERAL))
-                except ValueError:
-                    continue
-        for joint in _FIRST_CHOICE:
-            rest = self.loop.held(joint, _GENERAL)
-            if not self.loop.slides[joint] and not any(rest.slides):
-                try:
-                    return joint, SixTurns.of(rest)
-                except ValueError:
-                    continue
+        choices = sorted(_FIRST_CHOICE, key=lambda joint: not self.loop.slides[joint])
+        for kind in (Grouped, SixTurns):
+            for joint in choices:
+                rest = self.loop.held(joint, _GENERAL)
+                if kind is Grouped or not any(rest.slides):
+                    try:
+                        return joint, kind.of(rest)
+                    except ValueError:
+                        continue
         raise ValueError("no six of its joints are an arm that is solved")
 
     def _algebra(self, value: float) -> Algebra:
@@ -78,7 +74,10 @@ class RedundantArm(LoopArm):
         values, which = np.unique(near[self.free_joint], return_inverse=True)
         for i, value in enumerate(values):
             poses = np.flatnonzero(which == i)
-            found = self._algebra(float(value)).candidates(T[poses], near[kept][:, poses])
+            wished = near[kept][:, poses]
+            found = self._algebra(float(value)).candidates(T[poses], wished)
+            if isinstance(self._general, SixTurns):
+                found = Candidates.joined([starts(wished[:, None]), found])
             rows[np.ix_(kept, np.arange(shape[0]), poses)] = found.rows
             valid[:, poses] = found.valid
             flags[:, poses] = found.flags & ~np.uint8(Flag.LIMIT) | np.uint8(Flag.FREE_CHAIN)
@@ -96,7 +95,9 @@ class RedundantArm(LoopArm):
             found, _ = self._branches(poses[lacking], aside, tol)
             branches.q[:, :, lacking], branches.valid[:, lacking] = found.q, found.valid
             branches.flags[:, lacking], branches.failure[lacking] = found.flags, found.failure
-            branches.excess[lacking] = np.where(found.failure == 0, 0.0, np.minimum(found.excess, branches.excess[lacking]))
+            branches.excess[lacking] = np.where(
+                found.failure == 0, 0.0, np.minimum(found.excess, branches.excess[lacking])
+            )
         return branches
 
     def label(self, branch: int, flags: int) -> str:

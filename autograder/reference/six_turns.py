@@ -69,7 +69,7 @@ def candidates(links: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     M = rows.reshape(3, count, 12, 12)
     companion = np.zeros((count, 24, 24))
     companion[:, :12, 12:] = np.eye(12)
-    companion[:, 12:] = -np.linalg.solve(M[2] + _NOISE, np.concatenate([M[0], M[1]], axis=2))
+    companion[:, 12:] = -_solved(M[2] + _NOISE, np.concatenate([M[0], M[1]], axis=2))
     roots, vectors = np.linalg.eig(companion)
     apart = 2 * np.abs(roots.imag) / (1 + np.abs(roots) ** 2)
     kept = np.argsort(apart, axis=1)[:, :MOST]
@@ -78,6 +78,14 @@ def candidates(links: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     t = roots.real.T, _ratio(powers[:, :-1], powers[:, 1:]), _ratio(powers[:, :, :-1], powers[:, :, 1:])
     c, d, e = (2 * np.arctan(each) + aside for each, aside in zip(t, _ASIDE))
     return np.stack(_others(links, c, d, e)), np.take_along_axis(apart, kept, axis=1).T
+
+
+def _solved(A: np.ndarray, B: np.ndarray) -> np.ndarray:
+    """A^-1 B; of matrices that are singular nevertheless, some answer that is finite."""
+    try:
+        return np.linalg.solve(A, B)
+    except np.linalg.LinAlgError:
+        return np.linalg.pinv(A, rcond=1e-14) @ B
 
 
 def _six_free_of(terms: np.ndarray, rest: np.ndarray) -> np.ndarray:
