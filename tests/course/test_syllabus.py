@@ -102,7 +102,7 @@ def link(name) -> str:
     return f"[{name[:2]} {heading.partition(':')[0]}]({name}.ipynb)"
 
 
-@pytest.mark.parametrize("place, lecture", enumerate(LECTURES), ids=lambda value: str(value)[:30])
+@pytest.mark.parametrize("place, lecture", list(enumerate(LECTURES)), ids=lambda value: str(value)[:30])
 def test_a_lecture_says_its_time_what_it_needs_and_what_follows(place, lecture):
     needs = ", ".join(map(link, lecture["needs"])) or "matrices and vectors, a little Python"
     exercise = exercise_of(lecture)

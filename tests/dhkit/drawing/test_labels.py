@@ -41,6 +41,7 @@ def overlaps(ax) -> list[tuple[str, str]]:
 
 
 @pytest.mark.slow
+@pytest.mark.slow
 def test_names_of_frames_do_not_lie_on_one_another():
     assert overlaps(draw_frames_3d(chain_products(modified_dh(*EPFL.T)))) == []
     assert overlaps(draw_chain(RX90.tolist(), normals=True)) == []
