@@ -5,6 +5,8 @@ from __future__ import annotations
 import shutil
 import zipfile
 from collections.abc import Iterator
+from contextlib import suppress
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from .course import Course
@@ -17,6 +19,14 @@ from .term import FILE as TERM
 _STEPS = ("submitted", "autograded", "feedback", "release", "source")
 _PAGES = ("downloaded", "build/return", "build/reports", "build/term")
 """Folders of the course, beside nbgrader's own, that hold what people did."""
+_ABOUT = """\
+A term of a course, written by {versions}.
+
+feedback/ and build/ hold pages that any browser opens. Points, notes and comments are in gradebook.db, an SQLite file.
+To work with it, unpack it and type the commands of the repository in that folder: autograder report, autograder term,
+autograder export, autograder explain. Verdicts are those of the questions that the repository holds then: check out the
+version of that term before anything is graded again.
+"""
 _CLEARED = ("submitted", "autograded", "feedback")
 
 
@@ -42,6 +52,7 @@ def archive(course: Course, target: Path) -> list[str]:
         with writing(course.db_url):
             files = {path.relative_to(course.root).as_posix(): path for path in _files(course, target, part)}
             with zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as written:
+                written.writestr("ABOUT.txt", _ABOUT.format(versions=_versions()))
                 for name, path in files.items():
                     written.write(path, name)
         with zipfile.ZipFile(part) as written:
@@ -62,6 +73,14 @@ def clear(course: Course) -> None:
     for path in (path_of(course.db_url), course.root / ROSTER):
         if path is not None:
             path.unlink(missing_ok=True)
+
+
+def _versions() -> str:
+    found = []
+    for name in ("autograder", "nbgrader"):
+        with suppress(PackageNotFoundError):
+            found.append(f"{name} {version(name)}")
+    return " and ".join(found)
 
 
 def _files(course: Course, *besides: Path) -> Iterator[Path]:

@@ -154,7 +154,8 @@ def term_table(found: Overview) -> None:
     off = sum(bool(one.off) for one in found.minutes)
     print(
         f"{len(found.behind)} of {len(found.students)} falling behind; {len(found.staying)} mistakes that stay; "
-        f"{off} questions whose minutes are wrong; {len(found.pairs)} pairs with equal wrong answers"
+        f"{off} questions whose minutes are wrong; {len(found.pairs)} pairs with equal wrong answers; "
+        f"{len(found.borrowed)} with another's numbers"
     )
 
 

@@ -42,6 +42,8 @@ def test_everything_of_the_term_is_kept(term, tmp_path, capsys):
             "build/return/scara/scara-grades.csv",
         }  # fmt: skip
         assert not [name for name in names if "secret" in name]
+        about = kept.read("ABOUT.txt").decode()
+        assert "nbgrader 0." in about and "autograder explain" in about and "feedback/" in about
         kept.extract("gradebook.db", tmp_path)
     with sqlite3.connect(tmp_path / "gradebook.db") as gradebook:
         assert gradebook.execute("select count(*) from submitted_assignment").fetchone() == (1,)
