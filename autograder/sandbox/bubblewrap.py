@@ -66,7 +66,6 @@ def _kernel_environment() -> dict[str, str]:
         "LANG": "C.UTF-8",
         "TMPDIR": "/tmp",
         "MPLBACKEND": "module://matplotlib_inline.backend_inline",
-        "DHKIT_STILL": "1",  # scenes as still drawings: nobody turns them here
         "MALLOC_ARENA_MAX": "2",
         "PYTHONDONTWRITEBYTECODE": "1",
         **dict.fromkeys(threads, "1"),

@@ -132,7 +132,12 @@ def test_sliders_have_round_values_within_the_limits():
 # ---------------------------------------------------------------- what is shown
 
 
-def test_a_scene_is_a_widget_with_the_still_drawing_beside_it():
+@pytest.fixture
+def watched(monkeypatch):
+    monkeypatch.setattr(sys.modules[Scene.__module__], "is_watched", lambda: True)
+
+
+def test_a_scene_is_a_widget_with_the_still_drawing_beside_it(watched):
     scene = Scene(SCARA, LENGTHS)
     bundle = scene._repr_mimebundle_()
     assert base64.b64decode(bundle["image/png"]).startswith(PNG)
@@ -141,7 +146,7 @@ def test_a_scene_is_a_widget_with_the_still_drawing_beside_it():
     assert not plt.get_fignums()
 
 
-def test_kernel_and_browser_share_the_posture():
+def test_kernel_and_browser_share_the_posture(watched):
     scene = Scene(SCARA, LENGTHS)
     scene._repr_mimebundle_()
     scene.q = [0.1, 0.2, 0.3, 0.4]
@@ -156,12 +161,11 @@ def test_kernel_and_browser_share_the_posture():
     assert scene.ghosts([])._widget.ghosts == []
 
 
-def test_where_scenes_stand_still_there_is_no_widget(monkeypatch):
-    monkeypatch.setenv("DHKIT_STILL", "1")
+def test_where_nobody_sits_before_the_notebook_there_is_no_widget():
     assert WIDGET not in Scene(SCARA, LENGTHS)._repr_mimebundle_()
 
 
-def test_without_anywidget_the_still_drawing_remains(monkeypatch):
+def test_without_anywidget_the_still_drawing_remains(monkeypatch, watched):
     monkeypatch.setitem(sys.modules, "anywidget", None)
     monkeypatch.delitem(sys.modules, "dhkit.scene.widget", raising=False)
     bundle = Scene(SCARA, LENGTHS)._repr_mimebundle_()
@@ -179,9 +183,22 @@ assert "anywidget" not in sys.modules"""
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-def test_the_grader_sees_still_drawings():
-    bubblewrap = pytest.importorskip("autograder.sandbox.bubblewrap", reason="the kit alone is installed")
-    assert bubblewrap._kernel_environment()["DHKIT_STILL"]
+@pytest.mark.slow
+@pytest.mark.parametrize("answers", [False, True])
+def test_a_notebook_that_runs_unattended_shows_still_drawings(answers):
+    from jupyter_client.manager import start_new_kernel
+
+    code = f"from dhkit.scene import Scene\nScene({[[0, 0, 0, 0, 0.1], [0, 0.5, 0, 0, 0.2]]})"
+    manager, client = start_new_kernel()
+    shown = []
+    try:
+        client.execute_interactive(code, allow_stdin=answers, output_hook=shown.append, timeout=300)
+    finally:
+        client.stop_channels()
+        manager.shutdown_kernel(now=True)
+    (data,) = [message["content"]["data"] for message in shown if message["msg_type"] == "execute_result"]
+    assert "image/png" in data
+    assert (WIDGET in data) == answers
 
 
 @pytest.mark.parametrize("solutions", [[], [[0.1, 0.2], [0.3, -0.2]]])

@@ -4,8 +4,8 @@
 all postures beside it, ``scene.play(path)`` moves it along a path, ``scene.save("arm.html")`` writes a page that needs
 neither Python nor a network.
 
-The picture is drawn by the reader's browser (``scene.js``, built from ``js/`` by ``make scene``). Where no widget runs,
-and where the variable ``DHKIT_STILL`` of the environment is set, the still drawing stands in its place.
+The picture is drawn by the reader's browser (``scene.js``, built from ``js/`` by ``make scene``). Where no widget runs, or
+nobody sits before the notebook (nbconvert, the grader), the still drawing stands in its place.
 """
 
 from .scene import Scene

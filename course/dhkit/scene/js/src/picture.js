@@ -71,7 +71,7 @@ export class Picture {
         solids.push(tube(add(origin, way, 0.8 * size * from), add(origin, way, 0.8 * size * to), 0.006 * this.unit, colour));
       }
       solids.push(cone(add(origin, way, 0.78 * size), tip, 0.02 * this.unit, colour));
-      const text = owners.map((i) => [letter, this.arm.names[i]]);
+      const text = owners.map((i) => [letter.toUpperCase(), this.arm.names[i]]);
       labels.push({ id: `frame ${letter} ${owners}`, text, kind: letter, at: tip, way, gap: 3 });
     }
     return { solids, labels };
@@ -106,7 +106,7 @@ export class Picture {
         solids.push(tube(add(tip, way, reach * (from - 1.4)), add(tip, way, reach * (to - 1.4)), 0.0045 * this.unit, colours.z));
       }
       solids.push(cone(add(tip, way, -0.25 * size), tip, 0.015 * this.unit, colours.z));
-      const text = hidden.map((i) => ["z", this.arm.names[i]]);
+      const text = hidden.map((i) => ["Z", this.arm.names[i]]);
       labels.push({ id: `axis ${owners}`, text, kind: "z", at: tip, way, gap: 3 });
     }
     return { solids, labels };
