@@ -16,6 +16,7 @@ from ..entries import note_of
 from ..errors import CourseError
 from ..gradebook import reading
 from ..inert import terminal_text
+from ..report.statistics import UNNOTED
 from ..roster import Person, Roster, read_roster
 from ..store import StoredNotebook, stored_notebooks
 from ..submission.reading import MAX_FILE, Unreadable, cell_metadata, plain_bytes
@@ -69,35 +70,25 @@ def overview(course: Course, now: datetime) -> Overview:
         If nothing was graded yet.
     """
     roster = read_roster(course.root)
-    stored = {name: _stored(course, name) for name in _in_order(course)}
-    stored = {name: found for name, found in stored.items() if found}
+    stored = {name: found for name in _in_order(course) if (found := _stored(course, name))}
     if not stored:
         raise CourseError("nothing was graded yet; run: autograder grade")
+    graded: dict[str, dict[str, Work]] = {name: {} for name in stored}
     sheets: dict[tuple[str, str], Sheet] = {}
     borrowed: list[Borrowed] = []
-    works: dict[str, dict[str, Work]] = {}
-    for name, graded in stored.items():
-        found = {student: _graded(name, one) for student, one in graded.items()}
-        for student, work in found.items():
+    for name, notebooks in stored.items():
+        for student, one in notebooks.items():
+            work = _graded(name, one)
             mine, typed = read_sheets(course, student, work)
+            graded[name][student] = replace(work, answers=tuple(_as_told(answer, mine) for answer in work.answers))
             sheets |= {(student, question): sheet for question, sheet in mine.items()}
-            others = tuple(answer.question for answer in work.answers if answer.note == OTHERS_NUMBERS)
-            if others and typed and normal_form(typed) != normal_form(student):
-                borrowed.append(Borrowed(student, terminal_text(typed, 80), others))
-            told_first = (
-                replace(answer, told=mine[answer.question].told) if answer.question in mine else answer
-                for answer in work.answers
-            )
-            found[student] = replace(work, answers=tuple(told_first))
-        works[name] = found | _others(course, name, found, roster, now)
-    people = _people(works, roster)
+            borrowed += _borrowed(student, typed, work)
+    everybody = {person.id for person in roster.people}.union(
+        *graded.values(), *(_known(course, one) for one in graded)
+    )
+    works = {name: _completed(course, name, found, roster, everybody, now) for name, found in graded.items()}
     students = tuple(
-        Student(
-            id,
-            name,
-            tuple(works[one].get(id) or Work(one, "missing", max_score=_most(works[one])) for one in works),
-        )
-        for id, name in people.items()
+        Student(id, name, tuple(one[id] for one in works.values())) for id, name in _people(works, roster).items()
     )
     exercises = tuple(of_class(name, (work for student in students for work in student.works)) for name in works)
     behind = {student.id: signs for student in students if (signs := falling_behind(student, exercises))}
@@ -148,33 +139,50 @@ def _graded(exercise: str, stored: StoredNotebook) -> Work:
 
 def _note(stored: StoredNotebook, check: str) -> str:
     found = stored.comments.get(answer_id(check))
-    return (note_of(found.auto) if found else None) or ""
+    return (note_of(found.auto) if found else None) or UNNOTED
 
 
-def _others(
-    course: Course, exercise: str, graded: Mapping[str, Work], roster: Roster, now: datetime
+def _as_told(answer: Answer, sheets: Mapping[str, Sheet]) -> Answer:
+    sheet = sheets.get(answer.question)
+    return replace(answer, told=sheet.told) if sheet else answer
+
+
+def _borrowed(student: str, typed: str | None, work: Work) -> list[Borrowed]:
+    others = tuple(answer.question for answer in work.answers if answer.note == OTHERS_NUMBERS)
+    if not others or not typed or normal_form(typed) == normal_form(student):
+        return []
+    return [Borrowed(student, terminal_text(typed, 80), others)]
+
+
+def _known(course: Course, exercise: str) -> set[str]:
+    """Who handed in anything for an exercise, graded or not."""
+    return {*read_receipts(receipts_folder(course.root, exercise)), *course.students(exercise)}
+
+
+def _completed(
+    course: Course, exercise: str, graded: Mapping[str, Work], roster: Roster, everybody: Iterable[str], now: datetime
 ) -> dict[str, Work]:
-    """The exercise of those of whom nothing was graded: members of teams, who is exempt, has time left or is missing."""
-    receipts, most = read_receipts(receipts_folder(course.root, exercise)), _most(graded)
+    """The exercise for everybody: also for members of teams, who is exempt, has time left, or is missing."""
+    receipts, handed_in = read_receipts(receipts_folder(course.root, exercise)), set(course.students(exercise))
     in_teams = teams(receipts, roster, graded)
-    handed_in = set(course.students(exercise))
+    nothing = Work(exercise, "missing", max_score=max((work.max_score for work in graded.values()), default=0.0))
     found = {}
-    for id in sorted({person.id for person in roster.people} | receipts.keys() | handed_in):
+    for id in everybody:
         person, team, receipt = roster.get(id), in_teams.get(id), receipts.get(id)
-        if id in graded and not (person and exercise in person.exempt):
-            continue
         if person and exercise in person.exempt:
-            found[id] = Work(exercise, "exempt", max_score=most)
+            found[id] = replace(nothing, status="exempt")
+        elif id in graded:
+            found[id] = graded[id]
         elif team and team in graded:
             found[id] = replace(graded[team], team=team)
         elif id in handed_in:
-            found[id] = Work(exercise, "not graded", max_score=most)
+            found[id] = replace(nothing, status="not graded")
         elif receipt and receipt.missing:
-            found[id] = Work(exercise, "no notebook", max_score=most, remarks=(terminal_text(receipt.missing, 120),))
+            found[id] = replace(nothing, status="no notebook", remarks=(terminal_text(receipt.missing, 120),))
         elif _has_time(course, exercise, person, now):
-            found[id] = Work(exercise, "open", max_score=most)
+            found[id] = replace(nothing, status="open")
         else:
-            found[id] = Work(exercise, "missing", max_score=most)
+            found[id] = nothing
     return found
 
 
@@ -186,10 +194,6 @@ def _has_time(course: Course, exercise: str, person: Person | None, now: datetim
     return now < dates.due + more if more else now < dates.due
 
 
-def _most(works: Mapping[str, Work]) -> float:
-    return max((work.max_score for work in works.values()), default=0.0)
-
-
 def _people(works: Mapping[str, Mapping[str, Work]], roster: Roster) -> dict[str, str]:
     """Everybody, with names: the roster, and who handed in without being on it; no teams, whose members have lines."""
     found = {person.id: person.name for person in roster.people}
@@ -199,7 +203,7 @@ def _people(works: Mapping[str, Mapping[str, Work]], roster: Roster) -> dict[str
     return dict(sorted(found.items(), key=lambda item: (item[0].casefold(), item[0])))
 
 
-def _minutes(course: Course, works: Mapping[str, Mapping[str, Work]]) -> Iterable[Minutes]:
+def _minutes(course: Course, works: Mapping[str, Mapping[str, Work]]) -> list[Minutes]:
     public = public_questions()
     measured = []
     for exercise, one in works.items():

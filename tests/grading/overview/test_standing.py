@@ -69,6 +69,12 @@ def test_late_and_missing_are_counted_and_who_has_time_left_is_neither():
     assert (found.shares, found.missing, found.late) == ((0.5,), 1, 1)
 
 
+@pytest.mark.parametrize("note", ["right", "right_from_earlier", "not_attempted", "unnoted", "error"])
+def test_what_is_no_wrong_answer_holds_no_mistake(note):
+    answer = Answer("scara.T04", 0, 1, note)
+    assert not answer.is_wrong and answer.mistakes == ()
+
+
 def test_a_mistake_stays_that_comes_back_in_another_exercise_whatever_stands_beside_it():
     def wrong(name, *notes):
         answers = tuple(Answer(f"{name}.q{i}", 0, 1, note) for i, note in enumerate(notes))
