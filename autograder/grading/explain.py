@@ -19,6 +19,7 @@ from autograder.sandbox import available
 from dhkit.variants import normal_form
 
 from .cells import answer_id, check_cells, check_id, counts_for_everybody, notebook_record, question_id, tracked_cells
+from .collecting.receipts import read_receipts, receipts_folder, teams
 from .course import Course
 from .entries import note_of, score
 from .errors import CourseError
@@ -75,11 +76,13 @@ class Explanation:
 
 
 def find_student(course: Course, exercise: str, given: str) -> str:
-    """The id of the student who is meant: by the id itself, or by a name on the roster, however it is typed."""
-    students = course.students(exercise)
+    """The id under which work of the student who is meant lies: by id or name, however typed, or that of the team."""
+    students, roster = course.students(exercise), read_roster(course.root)
     if given in students:
         return given
-    meant = {normal_form(given), *(normal_form(person.id) for person in read_roster(course.root).named(given))}
+    named = [person.id for person in roster.named(given)]
+    in_teams = teams(read_receipts(receipts_folder(course.root, exercise)), roster, students)
+    meant = {normal_form(name) for name in (given, *named, *(in_teams[id] for id in named if id in in_teams))}
     found = [student for student in students if normal_form(student) in meant]
     if len(found) != 1:
         raise CourseError(f"{given!r} handed in nothing for {exercise}; handed in: {', '.join(students) or 'nobody'}")

@@ -81,8 +81,9 @@ class _Class:
 
     @cached_property
     def teams(self) -> dict[str, str]:
-        """The groups that handed in together, by the ids of their members who did not hand in alone."""
-        return teams(self.receipts, self.roster, self.grades)
+        """The groups that handed in together, by the ids of their members who did not hand in alone and are not exempt."""
+        exempt = {person.id for person in self.roster.people if self.is_exempt(person.id)}
+        return teams(self.receipts, self.roster, self.grades.keys() | exempt)
 
     def called(self, text: str) -> str | None:
         """The one who was graded under this id, however it is written."""

@@ -120,11 +120,13 @@ class Deadlines:
         return self.term.utc(said) + timedelta(minutes=self.term.late.grace_minutes if self.term.late else 0)
 
     def extension(self, student: str) -> timedelta | None:
-        """How much more time a student has."""
+        """How much more time a student has; a group that hands in together has that of its members."""
         person, due = self.roster.get(student), self.due
-        if person is None or due is None:
+        if due is None:
             return None
-        return more_time(person, self.exercise, due, self.term)
+        who = [person] if person else self.roster.of_group(student)
+        given = [more_time(one, self.exercise, due, self.term) for one in who]
+        return max((more for more in given if more is not None), default=None)
 
     def had_until(self, student: str) -> str:
         """Until when a student with more time had it, in the course's own time; empty where there is no more."""

@@ -53,6 +53,15 @@ def test_a_right_answer(root, without_kernels):
     assert "<title>scara.d2_sign, ann</title>" in page
 
 
+def test_a_member_is_found_in_the_team(root, without_kernels, tmp_path):
+    course = shutil.copytree(root, tmp_path / "course")
+    (course / "students.csv").write_text("id,last_name,first_name,groups\nbea,B,Bea,ann\n")
+    (course / "downloaded/scara").mkdir(parents=True)
+    (course / "downloaded/scara/collected.json").write_text('{"ann": {"platform": "moodle", "name": "ann"}}')
+    with without_kernels():
+        assert explain(open_course(course), "Bea B", "scara.d2_sign").student == "ann"
+
+
 def test_an_answer_that_did_not_run(root, without_kernels):
     text, page = told(root, without_kernels, "scara.T04")
     for said in ("it did not run: NameError: undefined", "no answer was handed in", "Your code stopped with an error"):

@@ -11,9 +11,11 @@ import pytest
 from nbgrader.api import Gradebook
 
 from autograder import cli
+from autograder.grading.collecting.receipts import Receipt
 from autograder.grading.course import open_course
 from autograder.grading.errors import CourseError
-from autograder.grading.returning import return_canvas, return_moodle
+from autograder.grading.returning import _Class, return_canvas, return_moodle
+from autograder.grading.roster import Person, Roster
 
 pytestmark = pytest.mark.slow
 
@@ -334,3 +336,9 @@ def test_the_table_of_grades_adds_up_and_invents_no_zeros(graded, tmp_path):
     assert rows["dan"]["score"] == rows["dan"]["raw_score"] == ""
     assert cli.main(["export", "--to", str(target), "--course", str(root)]) == 0
     assert not target.read_bytes().startswith(b"\xef\xbb\xbf")
+
+
+def test_who_is_exempt_gets_no_points_of_the_team():
+    people = (Person("ada", groups=("Team 3",), exempt=("scara",)), Person("ben", groups=("Team 3",)))
+    known = _Class("scara", {}, {}, {"Team 3": Receipt(platform="moodle", name="Team 3")}, Roster(people))
+    assert known.teams == {"ben": "Team 3"}

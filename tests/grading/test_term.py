@@ -65,6 +65,17 @@ def test_more_time(text, extension):
     assert found.extension("ada") == extension and found.extension("ben") is None
 
 
+def test_more_time_of_a_member_is_more_time_for_the_team():
+    term = Term(timezone="UTC", due={"scara": datetime(2026, 10, 14, 23, 59)})
+    people = (
+        Person("ada", groups=("Team 3",)),
+        Person("ben", groups=("Team 3",), extensions=("scara=+3d",)),
+        Person("cid"),
+    )
+    found = Deadlines("scara", term, Roster(people))
+    assert [found.extension(name) for name in ("Team 3", "team3", "ada", "cid")] == [timedelta(days=3)] * 2 + [None] * 2
+
+
 @pytest.mark.parametrize(
     "text, said",
     [
