@@ -10,7 +10,7 @@ from functools import cache
 
 import numpy as np
 
-_REAL = 1e-3  # imaginary part, in radians, up to which a root may be real: of a double root half of the digits are lost
+_REAL = 2e-2  # imaginary part, in radians, up to which a root may be real: of a double root half of the digits are lost
 
 ZERO = 1e-10
 """Length, of an arm of size 1, under which a vector has no direction."""

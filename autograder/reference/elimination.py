@@ -16,7 +16,7 @@ import numpy as np
 from . import circle
 from .status import Flag
 
-_RANK = 1e-9  # singular value under which the projections say only one thing
+_RANK = 1e-4  # singular value under which the projections say only one thing: the rest is for Newton
 _IDENTICAL = 1e-11  # values under which a polynomial is zero everywhere
 _STEP = 1e-5  # radians, for the slope at a root
 _ONE_SIDE = 1e-12  # half a distance of two solutions that are one, so that each still has its side

@@ -24,7 +24,7 @@ from .status import Flag
 _PARALLEL = 1e-9  # sine under which axes are parallel
 _MEETING = 1e-9  # distance, in sizes of the arm, under which axes meet
 _ALIGNED = 1e-9  # sine under which the outer axes of a wrist are one line
-_OUT = 1e-6  # by how much a group may be asked for too much: Newton's method and the forward model decide
+_OUT = 1e-4  # by how much a group may be asked for too much: Newton's method and the forward model decide
 
 
 class Both(NamedTuple):

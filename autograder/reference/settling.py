@@ -23,6 +23,7 @@ _STEPS = 12
 _SINGULAR = 1e-5  # smallest singular value of the Jacobian, per largest, where branches merge
 _SAME = 1e-7  # radians (sizes of the arm) between two postures that are one; more where branches merge
 _BLURRED = 1e-4
+_BESIDE = 1e-3  # radians (sizes of the arm) between a candidate that came to nothing and its second try
 _ASIDE = 1e-2  # radians that a singular posture is moved to see whether that is a family
 _CLOSED = 1e-11  # of the pose then: a fold misses it by the square
 
@@ -52,6 +53,8 @@ def settled(
     reached = (error <= tol).reshape(branches, count)
     hopeless = np.tile(~reached.any(axis=0), branches)
     again = hopeless & np.isfinite(flat).all(axis=1)
+    # From a singular posture a step leads nowhere: from beside it.
+    flat[again] += _BESIDE * task.unit * np.cos(np.arange(n))
     flat[again], error[again] = task.approached(flat[again], target[again])
     best = error.reshape(branches, count)
     reached = best <= tol

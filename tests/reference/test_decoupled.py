@@ -197,6 +197,20 @@ def test_beside_the_wrist_singularity_of_a_ur5(bent):
         assert (batch.status == Status.INFINITE).all() and "q6 free" in batch[0].free_by_row
 
 
+@pytest.mark.parametrize("offset", [1e-9, 1e-7, 1e-6, 1e-5, 1e-4])
+def test_axes_that_meet_all_but_exactly(offset):
+    """Axes 5 and 6 of a UR5, with the noise of a URDF file between them."""
+    rows = [(*row[:1], row[1] + offset * (i == 5), *row[2:]) for i, row in enumerate(UR5)]
+    joints = sp.symbols("q1:7")
+    robot = Robot(DHTable([(s, a, al, d, th + q) for (s, a, al, d, th), q in zip(rows, joints)], joints=joints))
+    q = np.random.default_rng(6).uniform(-3, 3, (100, 6))
+    T = robot.forward(q)
+    batch = robot.inverse_batch(T)
+    pose, branch = np.nonzero(batch.valid)
+    assert np.abs(robot.forward(batch.q[pose, branch]) - T[pose]).max() < 2e-9
+    assert_recovered("UR5", batch, q, 1e-5)
+
+
 def test_a_ur5_with_its_wrist_straight_names_the_free_joint_and_keeps_within_limits():
     robot = robot_of("UR5")
     table = DHTable(robot.table.rows, "UR5", robot.table.joints, limits=[(-2.5, 2.5)] * 6)
