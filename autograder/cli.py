@@ -512,19 +512,27 @@ def _watch(options) -> int:
         course.require(exercise)
 
     print(f"watching {course.step('submitted')}; Ctrl-C stops", flush=True)
-    unusable: set[str] = set()
+    again: dict[str, set[str]] = {}
+    failures: dict[tuple[str, str], str] = {}
     for waiting in arrivals(course, options.exercise, poll=options.poll):
-        for exercise, students in waiting.items():
+        for exercise in sorted({*waiting, *again}):
+            students = sorted({*waiting.get(exercise, ()), *again.pop(exercise, ())})
             try:
                 with progress_bar(f"grading {exercise}", len(students)) as progress:
                     results = grade(course, exercise, students, jobs, False, progress)
             except CourseError as reason:
                 print(f"autograder: {exercise}: {reason}", file=sys.stderr)
+                again[exercise] = set(students)
                 continue
             for result in results:
-                if (result.status != "unchanged" or result.moved) and result.student not in unusable:
+                failed = result.found() if result.status == "failed" else ""
+                if failed and result.student in students:
+                    again.setdefault(exercise, set()).add(result.student)
+                told = failures.pop((result.student, exercise), None)
+                if failed:
+                    failures[result.student, exercise] = failed
+                if (result.status != "unchanged" or result.moved) and (not failed or failed != told):
                     print(result_line(result, datetime.now()), flush=True)
-            unusable |= {result.student for result in results} - set(students)
     return 0
 
 

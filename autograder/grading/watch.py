@@ -12,6 +12,8 @@ from .course import Course
 
 # Milliseconds without a change after which something has arrived, and after which it is looked at in any case.
 QUIET, AT_LAST = 1_000, 10_000
+# So many quiet moments later what could not be graded is tried again.
+PATIENCE = 60
 # Milliseconds between two looks at a folder of which the system does not tell.
 LOOK = 3_000
 
@@ -21,7 +23,8 @@ def arrivals(
 ) -> Iterator[dict[str, list[str]]]:
     """First whose work is there, by exercise; then whose has changed, each time when something has arrived and it is quiet again.
 
-    What arrives while the one who asks is busy comes with the next answer. It goes on for ever.
+    What arrives while the one who asks is busy comes with the next answer. Where nothing arrives for a while, an empty
+    answer comes: time to try again what failed. It goes on for ever.
 
     Parameters
     ----------
@@ -35,7 +38,7 @@ def arrivals(
     submitted = course.step("submitted")
     submitted.mkdir(parents=True, exist_ok=True)
     known = exercises or course.exercises()
-    begun = False
+    begun, quiet = False, 0
     for changes in watchfiles.watch(
         submitted,
         watch_filter=_counts,
@@ -51,6 +54,10 @@ def arrivals(
             begun = True
             yield _handed_in(course, {exercise: set(course.students(exercise)) for exercise in known})
             continue
+        quiet = 0 if changes else quiet + 1
+        if quiet == PATIENCE:
+            quiet = 0
+            yield {}
         found: dict[str, set[str]] = {exercise: set() for exercise in known}
         for _, path in changes:
             student, exercise, *_ = (*Path(path).relative_to(submitted.resolve()).parts, "", "")

@@ -44,6 +44,7 @@ COMMANDS = (
     "return",
     "report",
     "export",
+    "term",
     "archive",
     "bundle",
     "doctor",

@@ -52,6 +52,32 @@ def test_what_arrives_while_others_are_graded_is_told_next(course_copy, listen, 
     assert next(told) == {"scara": ["ben"]}
 
 
+def test_from_time_to_time_there_is_an_empty_answer(course_copy, listen, monkeypatch):
+    monkeypatch.setattr(watch, "PATIENCE", 2)
+    told = listen(course_copy)
+    assert [next(told), next(told)] == [{}, {}]
+
+
+@pytest.mark.slow
+def test_what_failed_is_tried_again_and_told_once(course_copy, small, released, without_kernels, monkeypatch, capsys):
+    small.hand_in(course_copy, "ann", small.answered(released, d2_sign="d2_sign = 'A'"))
+    (course_copy / "gradebook.db").rename(course_copy / "away.db")
+    seen = iter([{"scara": ["ann"]}, {}, {}, {}])
+
+    def arrivals(*settings, **more):
+        for number, one in enumerate(seen):
+            if number == 2:
+                (course_copy / "away.db").rename(course_copy / "gradebook.db")
+            yield one
+
+    monkeypatch.setattr(watch, "arrivals", arrivals)
+    with without_kernels():
+        assert cli.main(["watch", "scara", "--course", str(course_copy)]) == 0
+    out, err = capsys.readouterr()
+    assert err.count("run: autograder release") == 2
+    assert sum("  ann  scara  0/20" in line for line in out.splitlines()) == 1
+
+
 @pytest.mark.slow
 def test_the_command_shows_one_line_for_each(course_copy, small, released, without_kernels, monkeypatch, capsys):
     for student in ("ann", "ben", "<cid>"):
