@@ -56,6 +56,7 @@ lab: setup
 bench: setup .venv-bench/installed
 	$(BIN)/python tests/benchmarks/verdicts.py
 	$(BIN)/python tests/benchmarks/run.py
+	$(BIN)/python tests/benchmarks/grading.py
 
 # Sandboxed kernels cannot keep what they compile: they find it compiled.
 setup: .venv/installed bubblewrap

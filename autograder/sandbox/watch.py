@@ -9,6 +9,7 @@ import os
 import threading
 import time
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 
 import psutil
 
@@ -18,6 +19,7 @@ INODE_BYTES = 1536  # an inode and its name: an empty file costs memory too
 _DESCRIPTOR_BYTES = 208 << 10  # what a socket may buffer unread in the kernel (net.core.wmem_default)
 _TICKS = os.sysconf("SC_CLK_TCK")
 _PERIOD = 0.2
+_LISTS_CHILDREN = os.path.exists(f"/proc/self/task/{os.getpid()}/children")  # a choice made when Linux was built
 _LOOKS = 3  # at a family that seems to have lost processor time: a child was just being waited for
 
 
@@ -27,6 +29,28 @@ def family(root: psutil.Process) -> list[psutil.Process]:
         return [root, *root.children(recursive=True)]
     except psutil.Error:
         return []
+
+
+def family_at_a_glance(root: psutil.Process) -> list[psutil.Process]:
+    """The same without a look at every process of the machine; one may be missing while others around it end."""
+    if not _LISTS_CHILDREN:
+        return family(root)
+    members = [root] if root.is_running() else []
+    for member in members:
+        for pid in _children(member.pid):
+            with suppress(psutil.Error):
+                members.append(psutil.Process(pid))
+    return members
+
+
+def _children(pid: int) -> list[int]:
+    """Numbers of the processes that the threads of a process started and that are there."""
+    found: list[int] = []
+    with suppress(OSError):
+        for thread in os.listdir(f"/proc/{pid}/task"):
+            with suppress(OSError), open(f"/proc/{pid}/task/{thread}/children") as file:
+                found += map(int, file.read().split())
+    return found
 
 
 def _summed_lines(path: str, names: tuple[str, ...]) -> int:
@@ -173,17 +197,17 @@ class FamilyWatch(threading.Thread):
 
     def spent_now(self) -> Spent:
         """Look again, and return what the family has spent."""
-        self._look()
+        self._look(family_at_a_glance)
         return self._clock.spent
 
     def memory_now(self) -> int:
         """Return the bytes of memory that the family holds."""
         return memory_in_use(family(self._root)[self._outer :], self._places)
 
-    def _look(self) -> list[psutil.Process]:
+    def _look(self, members_of: Callable[[psutil.Process], list[psutil.Process]] = family) -> list[psutil.Process]:
         with self._looking:
             for _ in range(_LOOKS):
-                members = family(self._root)
+                members = members_of(self._root)
                 seen = observe(members, self._outer)
                 if seen.processor >= self._processor:
                     break

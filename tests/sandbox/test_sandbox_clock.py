@@ -1,5 +1,6 @@
 """Time is counted fairly: processor time of the whole family, and the clock only while nothing holds it up."""
 
+import os
 import re
 import signal
 import subprocess
@@ -162,3 +163,29 @@ def test_what_never_gets_a_processor_is_given_up_without_a_verdict(sandboxed, st
     run = sandboxed("1", "import time; time.sleep(10**6)", "1", limits=sandbox.Limits(notebook_seconds=3))
     assert statuses(run) == ["ok", "timeout", "not_run"]
     assert run.starved and "the machine gave it 0.0 s of processor time" in run.message
+
+
+@pytest.mark.parametrize("lists_children", [True, False])
+def test_a_glance_sees_children_of_every_thread_and_their_children(monkeypatch, lists_children):
+    monkeypatch.setattr(watch, "_LISTS_CHILDREN", lists_children and watch._LISTS_CHILDREN)
+    shell = "sleep 60 & echo; wait"
+    source = f"""
+import subprocess, sys, threading
+def start():
+    process = subprocess.Popen(["sh", "-c", {shell!r}], stdout=subprocess.PIPE)
+    process.stdout.readline()
+    print(flush=True)
+    process.wait()
+for _ in range(2): threading.Thread(target=start).start()
+"""
+    process = subprocess.Popen([sys.executable, "-c", source], stdout=subprocess.PIPE, start_new_session=True)
+    try:
+        for _ in range(2):
+            process.stdout.readline()
+        root = psutil.Process(process.pid)
+        seen = watch.family_at_a_glance(root)
+        assert seen[0] == root and set(seen) == set(watch.family(root)) and len(seen) == 5
+    finally:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+    assert watch.family_at_a_glance(root) == []
