@@ -23,6 +23,7 @@ from numpy.typing import ArrayLike
 from .choice import CLASSES, chosen, misfits
 from .elbow import ElbowArm, WristAlone, WristedArm
 from .inverse import TOLERANCE, InverseModel
+from .one_pose import OnePose
 from .parallel import ThreeRPR, ThreeRRR
 from .pen import PenArm
 from .planar_arms import PlanarArm, Scara
@@ -99,6 +100,20 @@ class Robot:
     ) -> Solutions:
         """Inverse kinematics: all postures for a pose (4, 4) or task coordinates, see `InverseModel.solve`."""
         return self.inverse_model.solve(T, near, tol, limits)
+
+    def postures(self, T: ArrayLike) -> np.ndarray:
+        """The joint values (k, n) of all postures of one pose, as `inverse` lists them, without their names and reasons.
+
+        For an elbow arm with a spherical wrist in a small part of its time.
+        """
+        T = np.asarray(T, dtype=float)
+        found = self._one_pose(T) if self._one_pose and T.shape == (4, 4) else None
+        return self.inverse(T).q if found is None else np.array(found).reshape(-1, 6)
+
+    @cached_property
+    def _one_pose(self) -> OnePose | None:
+        model = self.inverse_model
+        return OnePose(model) if isinstance(model, WristedArm) else None
 
     def inverse_batch(
         self, T: ArrayLike, near: ArrayLike | None = None, tol: float = TOLERANCE, limits: bool = False
