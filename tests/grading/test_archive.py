@@ -23,6 +23,8 @@ def term(without_kernels, small, course_copy, released):
     for page in ("term/students/ann.html", "reports/scara/report.html", "return/scara/scara-grades.csv"):
         (course_copy / "build" / page).parent.mkdir(parents=True)
         (course_copy / "build" / page).write_text("ann")
+    (course_copy / "build/runs").mkdir(exist_ok=True)
+    (course_copy / "build/runs/one").write_text("what ann's notebook brought back")
     (course_copy / "build/robots.zip").write_text("for the students")
     return course_copy
 
@@ -41,7 +43,7 @@ def test_everything_of_the_term_is_kept(term, tmp_path, capsys):
             "solutions/scara/scara.ipynb", "build/term/students/ann.html", "build/reports/scara/report.html",
             "build/return/scara/scara-grades.csv",
         }  # fmt: skip
-        assert not [name for name in names if "secret" in name]
+        assert not [name for name in names if "secret" in name or "build/runs" in name]
         about = kept.read("ABOUT.txt").decode()
         assert "nbgrader 0." in about and "autograder explain" in about and "feedback/" in about
         kept.extract("gradebook.db", tmp_path)
