@@ -108,10 +108,12 @@ them at all.
 >>> cloud.shape, bool(workspace.cells(cloud, 0.02).area > 0.3)
 ((20000, 2), True)
 
-**Equations by type.** The equations of Paul's method, types 1, 2, 3, 6, 7 and 8, each with its degenerate cases.
+**Equations by type.** The equations of Paul's method, types 1 to 8, each with its degenerate cases.
 
 >>> equations.type2(1.0, 1.0, 1.0).values.round(4)
 array([1.5708, 0.    ])
+>>> equations.type4(1.0, 0.3, 1.0, 0.4).values[0].round(4)
+array([0.6435, 0.5   ])
 >>> equations.type7(0.3, 0.4, 0.5, 0.0, 0.2, 0.1).count
 array(2)
 >>> str(equations.type8(0.5, 0.4, 0.9, 0.0).status)

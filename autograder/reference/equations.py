@@ -8,14 +8,16 @@ type  equations                                          solutions, regular case
 1     X r = Y                                            1
 2     X S + Y C = Z                                      2 or 0
 3     X1 S + Y1 C = Z1,  X2 S + Y2 C = Z2                1 or 0 (2 if dependent)
+4     X1 r S = Y1,  X2 r C = Y2                          2
+5     X1 S = Y1 + Z1 r,  X2 C = Y2 + Z2 r                2 or 0
 6     W Sj = X Ci + Y Si + Z1,  W Cj = X Si - Y Ci + Z2  2 or 0
 7     W1 Cj + W2 Sj = X Ci + Y Si + Z1,                  2 or 0
       W1 Sj - W2 Cj = X Si - Y Ci + Z2
 8     X Ci + Y Cij = Z1,  X Si + Y Sij = Z2              2 or 0
 ====  =================================================  =======================
 
-(types 4 and 5 couple an angle with a length; no robot of the documents has
-them). Type 8 is the planar arm with two revolute joints.
+Types 4 and 5 couple an angle with a length: arms with slides end in them. Type 8 is the planar arm with two revolute
+joints.
 
 Every coefficient may be an array; they are broadcast to a batch shape written
 ``...``. Angles are in radians, in (-pi, pi]. ``tolerance`` is in the unit of
@@ -127,6 +129,83 @@ def type3(
     infinite &= np.maximum(np.abs(Z1), np.abs(Z2)) <= accepted
     double = ~independent & (larger.status == Status.BOUNDARY)
     return _roots(candidates, exists, infinite, "theta", double)
+
+
+def type4(X1: ArrayLike, Y1: ArrayLike, X2: ArrayLike, Y2: ArrayLike, tolerance: float = 1e-12) -> Roots:
+    """X1 r S = Y1 and X2 r C = Y2: values (..., 2, 2).
+
+    Returns the pairs (theta, r): a point in polar coordinates, r > 0 first, then r < 0. At r = 0 theta is free. With X1
+    or X2 zero one equation is left, if any, and a family; its representative has S = 0 or C = 0.
+    """
+    (X1, Y1, X2, Y2), accepted = _coefficients(tolerance, X1, Y1, X2, Y2)
+    some1, some2 = np.abs(X1) > accepted, np.abs(X2) > accepted
+    x, y = _quotient(Y2, X2, some2), _quotient(Y1, X1, some1)
+    r = np.hypot(x, y)
+    angle = np.arctan2(y, x)
+    values = np.stack([np.stack([angle, r], axis=-1), np.stack([wrap(angle + np.pi), -r], axis=-1)], axis=-2)
+    fits = (some1 | (np.abs(Y1) <= accepted)) & (some2 | (np.abs(Y2) <= accepted))
+    regular = some1 & some2
+    central = regular & (r <= accepted)
+    free = np.where(some1 | some2, np.where(central, "theta", "theta (r follows)"), "theta and r")
+    return _roots(values, _twice(fits), fits & (~regular | central), free)
+
+
+def type5(
+    X1: ArrayLike,
+    Y1: ArrayLike,
+    Z1: ArrayLike,
+    X2: ArrayLike,
+    Y2: ArrayLike,
+    Z2: ArrayLike,
+    tolerance: float = 1e-12,
+) -> Roots:
+    """X1 S = Y1 + Z1 r and X2 C = Y2 + Z2 r: values (..., 2, 2).
+
+    Returns the pairs (theta, r), the larger r first. (C, S) runs along a straight line with r, and must lie on the unit
+    circle: two solutions, one where the line touches the circle. With X1 or X2 zero that equation gives r (the pairs
+    then start with the angle ahead, as in type 2), or nothing, and a family. A line that is one point leaves r free.
+    """
+    (X1, Y1, Z1, X2, Y2, Z2), accepted = _coefficients(tolerance, X1, Y1, Z1, X2, Y2, Z2)
+    some1, some2 = np.abs(X1) > accepted, np.abs(X2) > accepted
+    both, one = some1 & some2, some1 ^ some2
+    # Both equations: where the line (c, s) + (w, u) r meets the circle.
+    s, u = _quotient(Y1, X1, both), _quotient(Z1, X1, both)
+    c, w = _quotient(Y2, X2, both), _quotient(Z2, X2, both)
+    speed = np.hypot(u, w)
+    moving = speed > accepted
+    distance = np.where(moving, np.abs(_quotient(s * w - c * u, speed, moving)), np.hypot(s, c))
+    foot = -_quotient(s * u + c * w, speed**2, moving)
+    touching = both & moving & (np.abs(distance - 1) <= accepted)
+    half = _quotient(np.sqrt(np.where(touching, 0.0, np.maximum(1 - distance**2, 0.0))), speed, moving)
+    r = np.stack([foot + half, foot - half], axis=-1)
+    angle = np.arctan2(s[..., None] + u[..., None] * r, c[..., None] + w[..., None] * r)
+    # One row without its angle: it gives r, or holds by itself, or never; the other row, X, Y, Z, gives the angle then.
+    X, Y, Z, Y0, Z0 = (np.where(some2, p, q) for p, q in [(X2, X1), (Y2, Y1), (Z2, Z1), (Y1, Y2), (Z1, Z2)])
+    given = one & (np.abs(Z0) > accepted)
+    holds = one & ~given & (np.abs(Y0) <= accepted)
+    follows = holds & (np.abs(Z) > accepted)
+    alone = np.where(follows, _quotient(X - Y, Z, follows), -_quotient(Y0, Z0, given))
+    value = _quotient(Y + Z * alone, X, one)
+    edge = one & (np.abs(np.abs(value) - 1) <= accepted)
+    turn = np.arctan2(np.sqrt(np.where(edge, 0.0, np.maximum(1 - value**2, 0.0))), value)
+    pair = np.stack([turn, -turn], axis=-1)
+    angle = np.where(both[..., None], angle, np.where(some2[..., None], pair, np.pi / 2 - pair))
+    # No angle at all: the row with the larger factor gives r, if the other one agrees.
+    larger = np.abs(Z1) >= np.abs(Z2)
+    Y0, Z0 = np.where(larger, Y1, Y2), np.where(larger, Z1, Z2)
+    none, length = ~some1 & ~some2, np.abs(Z0) > accepted
+    only = -_quotient(Y0, Z0, length)
+    agree = none & (np.abs(Y1 + Z1 * only) <= accepted) & (np.abs(Y2 + Z2 * only) <= accepted)
+    r = np.where(both[..., None], r, np.where(one, alone, only)[..., None])
+
+    point = both & ~moving & (np.abs(distance - 1) <= accepted)
+    exists = (both & moving & (distance <= 1 + accepted)) | point | agree
+    exists |= (given | holds) & (np.abs(value) <= 1 + accepted)
+    free = np.select(
+        [none & length, none, follows, point | holds], ["theta", "theta and r", "theta (r follows)", "r"], ""
+    )
+    values = np.stack([wrap(angle), r], axis=-1)
+    return _roots(values, _twice(exists), exists & (free != ""), free, touching | (given & edge))
 
 
 def type6(W: ArrayLike, X: ArrayLike, Y: ArrayLike, Z1: ArrayLike, Z2: ArrayLike, tolerance: float = 1e-12) -> Roots:

@@ -158,6 +158,87 @@ def test_complete_against_multistart(name):
             assert np.abs(wrap(ours - theirs)).max(-1).min() < 1e-6
 
 
+def residual4(t, c):
+    X1, Y1, X2, Y2 = np.moveaxis(c, -1, 0)
+    return np.stack([X1 * t[..., 1] * np.sin(t[..., 0]) - Y1, X2 * t[..., 1] * np.cos(t[..., 0]) - Y2], axis=-1)
+
+
+def residual5(t, c):
+    X1, Y1, Z1, X2, Y2, Z2 = np.moveaxis(c, -1, 0)
+    angle, r = t[..., 0], t[..., 1]
+    return np.stack([X1 * np.sin(angle) - Y1 - Z1 * r, X2 * np.cos(angle) - Y2 - Z2 * r], axis=-1)
+
+
+WITH_LENGTH = {"type4": (eq.type4, residual4, [1, 3], 4), "type5": (eq.type5, residual5, [1, 4], 6)}
+
+
+@pytest.mark.parametrize("name", WITH_LENGTH)
+@pytest.mark.parametrize("choice", ["random", "round"])
+def test_an_angle_and_a_length_are_recovered(name, choice):
+    """Round coefficients hold zeros: whatever is free then, the pairs solve the equations and a family has its name."""
+    solve, residual, places, size = WITH_LENGTH[name]
+    rng = np.random.default_rng(13)
+    if choice == "random":
+        unknowns, c = rng.uniform(-3, 3, (3000, 2)), rng.normal(size=(3000, size))
+    else:
+        unknowns = np.stack([rng.choice(np.radians([0, 30, -45, 90, 180]), 4000), rng.integers(-1, 2, 4000)], axis=-1)
+        c = rng.integers(-1, 2, (4000, size)).astype(float)
+    c[:, places] += residual(unknowns, c)
+    roots = solve(*np.moveaxis(c, -1, 0))
+    assert (roots.count != 0).all()
+    error = np.abs(residual(roots.values, c[:, None])).max(-1)
+    assert error[roots.exists].max() < (1e-9 if choice == "random" else 1e-6)
+    gap = roots.values - unknowns[:, None]
+    gap[..., 0] = wrap(gap[..., 0])
+    gap = np.where(roots.exists, np.abs(gap).max(-1), np.inf).min(-1)
+    finite = roots.status != Status.INFINITE
+    assert gap[finite].max() < 3e-6 and ((roots.free != "") == ~finite).all()
+
+
+@pytest.mark.parametrize("name", WITH_LENGTH)
+def test_no_other_angle_and_length_is_found_by_newton(name):
+    solve, residual, _, size = WITH_LENGTH[name]
+    rng = np.random.default_rng(14)
+    for c in rng.uniform(0.3, 2, (20, size)) * rng.choice([-1, 1], (20, size)):
+        t = np.stack(np.meshgrid(np.linspace(-3, 3, 15), np.linspace(-8, 8, 15)), -1).reshape(-1, 2)
+        for _ in range(60):
+            ways = 1e-6 * np.eye(2)
+            J = np.stack([(residual(t + h, c) - residual(t - h, c)) / 2e-6 for h in ways], axis=-1)
+            t = t - np.clip((np.linalg.pinv(J) @ residual(t, c)[..., None])[..., 0], -0.5, 0.5)
+        good = t[np.abs(residual(t, c)).max(-1) < 1e-10]
+        ours = solve(*c).listed()
+        assert bool(len(good)) == bool(len(ours))
+        for each in good:
+            gap = ours - each
+            assert np.hypot(wrap(gap[:, 0]), gap[:, 1]).min() < 1e-6
+
+
+@pytest.mark.parametrize(
+    "solve, coefficients, count, free",
+    [
+        (eq.type4, (1, 3, 1, 4), 2, ""),
+        (eq.type4, (1, 0, 1, 0), -1, "theta"),
+        (eq.type4, (0, 0, 1, 4), -1, "theta (r follows)"),
+        (eq.type4, (0, 1, 1, 4), 0, ""),
+        (eq.type4, (0, 0, 0, 0), -1, "theta and r"),
+        (eq.type5, (1, 0, 1, 1, 1, 0), 1, ""),  # the line touches the circle
+        (eq.type5, (1, 0, 1, 1, 2, 0), 0, ""),
+        (eq.type5, (1, 0.6, 0, 1, 0.8, 0), -1, "r"),
+        (eq.type5, (0, 1, -2, 1, 0, 1), 2, ""),  # r = 1/2 from the first, then the cosine
+        (eq.type5, (1, 0, 1, 0, 1, -2), 2, ""),
+        (eq.type5, (0, 0, 0, 1, 0.5, 0), -1, "r"),
+        (eq.type5, (0, 0, 0, 1, 0.5, 1), -1, "theta (r follows)"),
+        (eq.type5, (0, 1, 0, 1, 0.5, 1), 0, ""),
+        (eq.type5, (0, 1, -1, 0, 2, -2), -1, "theta"),
+        (eq.type5, (0, 1, -1, 0, 1, -2), 0, ""),
+        (eq.type5, (0, 0, 0, 0, 0, 0), -1, "theta and r"),
+    ],
+)
+def test_counts_with_a_length(solve, coefficients, count, free):
+    roots = solve(*coefficients)
+    assert roots.count == count and str(roots.free) == free
+
+
 def test_type1():
     roots = eq.type1([2, 0, 0], [3, 0, 1])
     assert roots.count.tolist() == [1, -1, 0]
