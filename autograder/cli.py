@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
 from dataclasses import Field, fields
 from io import TextIOWrapper
+from pathlib import Path
 from typing import Any
 
 from autograder.sandbox import Limits
@@ -192,6 +193,17 @@ def _parser() -> argparse.ArgumentParser:
     )
     release.add_argument("--anew", action="store_true", help="seal with a new salt, for a new term")
     release.add_argument("--table", action="store_true", help="print what is sealed, and the arithmetic behind it")
+
+    new = command(
+        "new-exercise",
+        _new_exercise,
+        "Write an exercise on a robot of your own from its table: questions, references, mistakes, solution notebook.",
+        "autograder new-exercise my_robot.toml && autograder release my_robot",
+    )
+    new.add_argument(
+        "robot", type=Path, help="file with title, joints, rows [sigma, a, alpha, d, theta], [lengths] and a posture"
+    )
+    new.add_argument("--name", help="what the exercise is called (default: as the file)")
 
     points = command(
         "points",
@@ -372,6 +384,23 @@ def _course(options, config=None):
     from autograder.grading.course import find_root, open_course
 
     return open_course(find_root(options.course), config, options.verbose)
+
+
+def _new_exercise(options) -> int:
+    from autograder.authoring import write_exercise
+    from autograder.grading.course import find_root
+    from autograder.grading.errors import CourseError
+
+    try:
+        written = write_exercise(find_root(options.course), options.robot, options.name)
+    except ValueError as error:
+        raise CourseError(str(error)) from None
+    for path in written.files:
+        print(path)
+    if written.left_out:
+        print(f"without the inverse model: {written.left_out}")
+    print(f"look at the notebook, then run: autograder release {written.name}")
+    return 0
 
 
 def _release(options) -> int:
