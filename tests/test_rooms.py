@@ -1,4 +1,4 @@
-"""Imports point one way: cli -> grading -> sealing -> questions -> judge -> reference -> dhkit.geometry; grading -> sandbox."""
+"""Imports point one way: cli -> grading -> sealing -> questions -> judge -> reference -> dhkit.geometry; grading -> sandbox; cli -> authoring -> questions."""
 
 import ast
 import sys
@@ -14,6 +14,7 @@ MAY_IMPORT = {
     "autograder/sandbox": set(),
     "autograder/judge": {"autograder.reference", "dhkit", GEOMETRY},
     "autograder/questions": {"autograder.judge", "autograder.reference", "dhkit", GEOMETRY},
+    "autograder/authoring": {"autograder.questions", "dhkit"},
     "autograder/sealing": {"autograder.questions", "autograder.judge", "dhkit"},
     "autograder/grading": {
         "autograder.sealing",

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import partial
+from typing import Any
 
 import numpy as np
 import sympy
@@ -47,7 +48,7 @@ def ask_about(exercise: str, arm: Described) -> tuple[Question, ...]:
     factors, recursion = table.transforms(), table.recursion()
     forward = partial(_forward, arm)
     asked = [
-        Question(f"{exercise}.{TABLE}", rows, _telling(rows, _mistakes_in_table(rows)), partial=0.6),
+        Question(f"{exercise}.{TABLE}", rows, _telling(rows, _mistakes_in_table(rows), _moved_by), partial=0.6),
         Question(
             f"{exercise}.{RECURSION}",
             recursion[1],
@@ -133,23 +134,31 @@ def _mistakes_in_product(factors: list[sympy.Matrix], rows: list[list], shorter:
     ]
 
 
-def _telling(right: object, mistakes: Iterable[Mistake]) -> tuple[Mistake, ...]:
-    """Those mistakes that change the answer, each in another way than those before it."""
-    seen, kept = [_values(right)], []
-    for mistake in mistakes:
-        found = [_values(step(right)) for step in mistake.steps]
-        if found and all(_differs(one, other) for one in found[:1] for other in seen):
-            seen += found
-            kept.append(mistake)
-    return tuple(kept)
-
-
 def _values(answer: object) -> np.ndarray:
     """The entries of an answer at one point that is not special."""
     cells = np.array(answer.tolist() if isinstance(answer, sympy.MatrixBase) else answer, dtype=object)
     symbols = sorted(set().union(*(sympy.S(cell).free_symbols for cell in cells.flat)), key=str)
     at = {symbol: 0.37 + 0.211 * k for k, symbol in enumerate(symbols)}
     return np.array([complex(sympy.S(cell).subs(at)) for cell in cells.flat]).reshape(cells.shape)
+
+
+def _moved_by(rows: list[list]) -> np.ndarray:
+    """The kinds of the joints of a table, and where it leads: two tables with frames of their own agree in both."""
+    values = _values(rows)[None]
+    return np.append(following.product_of_table(values).ravel(), values[..., 0])
+
+
+def _telling(
+    right: object, mistakes: Iterable[Mistake], look: Callable[[Any], np.ndarray] = _values
+) -> tuple[Mistake, ...]:
+    """Those mistakes that change the answer, as it is looked at, each in another way than those before it."""
+    seen, kept = [look(right)], []
+    for mistake in mistakes:
+        found = [look(step(right)) for step in mistake.steps]
+        if found and all(_differs(one, other) for one in found[:1] for other in seen):
+            seen += found
+            kept.append(mistake)
+    return tuple(kept)
 
 
 def _differs(one: np.ndarray, other: np.ndarray) -> bool:
