@@ -14,18 +14,25 @@ from autograder.judge.question import Answer
 from autograder.judge.tree import IMPOSSIBLE, UNEXPLAINED
 from dhkit import wire
 
-MOST = 48
-"""Answers that are tried for each question."""
+MOST, MOST_OPERATIONS = 48, 12_000
+"""Answers that are tried for each question, and operations in all of them together: the judge needs time for long ones."""
 
 
 @cache
 def named(question: Question, student: str) -> tuple[tuple[Verdict, Answer], ...]:
     """Those of the likely answers to a question that the judge has a name for, with the judge's verdict."""
+    most = min(MOST, MOST_OPERATIONS // max(1, _size(question.answer(student))))
     judged = (
         (judge(question, Evidence(wire.packet(question.id, answer=wire.encode(answer))), student), answer)
-        for answer in islice(_likely_answers(question, student), MOST)
+        for answer in islice(_likely_answers(question, student), most)
     )
     return tuple(one for one in judged if one[0].share < 1 and one[0].note not in UNEXPLAINED)
+
+
+def _size(answer: Answer) -> int:
+    """Operations in a symbolic answer."""
+    cells = np.array(answer.tolist() if isinstance(answer, sympy.MatrixBase) else answer, dtype=object)
+    return sum(int(sympy.count_ops(cell)) for cell in cells.flat if isinstance(cell, sympy.Basic))
 
 
 def _likely_answers(question: Question, student: str) -> Iterator[Answer]:
