@@ -46,7 +46,7 @@ lock: setup
 
 # The program of dhkit.scene, bundled with three.js into one file that is committed: only who changes it needs node.
 scene:
-	cd course/dhkit/scene/js && npm ci --silent --ignore-scripts && npm run --silent build
+	cd course/dhkit/scene/js && npm ci --silent --ignore-scripts && npm run --silent lint && npm run --silent build
 
 # JupyterLab on lectures and exercises.
 lab: setup

@@ -2,7 +2,7 @@
 
 ``check("scara.T04", answer)`` hands an answer in and says what can be said of it here, ``hint("scara.T04")`` helps,
 ``solution("scara.T04")`` unfolds once the answer is right, ``progress()`` counts, ``practice("scara.postures")`` gives
-other numbers to try with, ``dhkit.drawing`` draws.
+other numbers to try with, ``dhkit.drawing`` draws, ``dhkit.scene`` shows robots that can be turned and moved.
 """
 
 from . import names

@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 import sympy
 
+from dhkit.geometry import modified_dh
 from dhkit.scene import Scene
 from dhkit.scene.page import script
 
@@ -184,21 +185,20 @@ assert "anywidget" not in sys.modules"""
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("answers", [False, True])
-def test_a_notebook_that_runs_unattended_shows_still_drawings(answers):
+def test_a_notebook_that_runs_unattended_shows_still_drawings():
     from jupyter_client.manager import start_new_kernel
 
     code = f"from dhkit.scene import Scene\nScene({[[0, 0, 0, 0, 0.1], [0, 0.5, 0, 0, 0.2]]})"
     manager, client = start_new_kernel()
     shown = []
     try:
-        client.execute_interactive(code, allow_stdin=answers, output_hook=shown.append, timeout=300)
+        for answers in (False, True):
+            client.execute_interactive(code, allow_stdin=answers, output_hook=shown.append, timeout=300)
     finally:
         client.stop_channels()
         manager.shutdown_kernel(now=True)
-    (data,) = [message["content"]["data"] for message in shown if message["msg_type"] == "execute_result"]
-    assert "image/png" in data
-    assert (WIDGET in data) == answers
+    results = [message["content"]["data"] for message in shown if message["msg_type"] == "execute_result"]
+    assert [("image/png" in data, WIDGET in data) for data in results] == [(True, False), (True, True)]
 
 
 @pytest.mark.parametrize("solutions", [[], [[0.1, 0.2], [0.3, -0.2]]])
@@ -318,6 +318,20 @@ def test_a_label_keeps_its_place_when_it_can():
     (second,) = in_node("dhkitScene.arrange(given, 320, 260, ['0.5235987755982988 0'])", [label])
     assert first["key"] == "0 0"
     assert second["key"].startswith("0.52")
+
+
+def test_the_four_moves_of_a_row_lead_from_frame_to_frame():
+    arm = Scene([[0, 0.3, 0.5, 0.2, t1]]).state()["arm"]
+    found = np.array(in_node("[0, 1, 1.5, 2, 3, 4].map((share) => dhkitScene.walk(given, [0.7], 0, share))", arm))
+    steps = [
+        (0, 0, 0, 0),
+        (0.3, 0, 0, 0),
+        (0.3, 0.25, 0, 0),
+        (0.3, 0.5, 0, 0),
+        (0.3, 0.5, 0.2, 0),
+        (0.3, 0.5, 0.2, 0.7),
+    ]
+    assert found.reshape(-1, 4, 4) == pytest.approx(modified_dh(*np.array(steps).T))
 
 
 def test_a_path_is_followed_from_end_to_end():

@@ -13,12 +13,12 @@ export function make(tag, properties = {}, ...children) {
   return element;
 }
 
-const inDegrees = (angle) => {
+export const inDegrees = (angle) => {
   const value = (angle * 180) / Math.PI;
   const text = Math.abs(value - Math.round(value)) < 1e-6 ? String(Math.round(value) || 0) : value.toFixed(1);
   return `${text.replace("-", "\u2212")}°`;
 };
-const inMetres = (length) => `${metres(length)} m`;
+export const inMetres = (length) => `${metres(length)} m`;
 
 /** What a slider shows and gives: whole degrees or round metres; only its ends may be odd. */
 function scale({ prismatic, low, high, step }) {

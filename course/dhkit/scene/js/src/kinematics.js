@@ -36,6 +36,13 @@ export function chain(arm, q) {
   return frames;
 }
 
+/** Frame i - 1 on its way to frame i, for row i - 1 from 0: `share` of the moves a, alpha, d, theta done, from 0 to 4. */
+export function walk(arm, q, row, share) {
+  const [, ...moves] = rowsAt(arm, q)[row];
+  const done = moves.map((move, k) => move * Math.min(Math.max(share - k, 0), 1));
+  return multiply(chain(arm, q)[row], transform(...done));
+}
+
 /** The hand seen from the base. */
 export const forward = (arm, q) => chain(arm, q).at(-1);
 

@@ -37,7 +37,8 @@ export function arrange(wanted, width, height, held = [], obstacles = []) {
   });
 }
 
-function below(index) {
+/** An index below the line. */
+export function below(index) {
   const element = document.createElement("sub");
   element.textContent = index;
   return element;

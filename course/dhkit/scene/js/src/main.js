@@ -1,12 +1,14 @@
 // A live robot from its table: in a notebook (anywidget), or in a page of its own.
 
-import { buttons, chooser, jointSliders, make, player, pressed } from "./controls.js";
-import { chain, column, forward } from "./kinematics.js";
+import { buttons, chooser, inDegrees, inMetres, jointSliders, make, player, pressed } from "./controls.js";
+import { chain, column, forward, rowsAt } from "./kinematics.js";
+import { below } from "./labels.js";
 import { metres } from "./picture.js";
 import style from "./style.css";
 import { View } from "./view.js";
 
 export { forward };
+export { walk } from "./kinematics.js";
 export { arrange } from "./labels.js";
 export { layout } from "./layout.js";
 
@@ -15,7 +17,9 @@ const SAMPLES = 400; // points of a drawn path
 
 /** Whether the page around writes light on dark. */
 function isDark(element) {
-  const [r, g, b] = getComputedStyle(element).color.match(/[\d.]+/g).map(Number);
+  const colour = getComputedStyle(element).color;
+  if (!colour) return matchMedia("(prefers-color-scheme: dark)").matches; // not in the page yet
+  const [r, g, b] = colour.match(/[\d.]+/g).map(Number);
   return 0.3 * r + 0.6 * g + 0.1 * b > 128;
 }
 
@@ -30,10 +34,11 @@ function watchTheme(element, apply) {
   const scheme = matchMedia("(prefers-color-scheme: dark)");
   scheme.addEventListener("change", look);
   look();
-  return () => {
+  const forget = () => {
     observer.disconnect();
     scheme.removeEventListener("change", look);
   };
+  return { look, forget };
 }
 
 /** The posture at a share, from 0 to 1, of a path with equal times between its points. */
@@ -55,7 +60,8 @@ export function mount(element, state, onMove = () => {}) {
 
   const layer = make("div", { className: "labels", "aria-hidden": "true" });
   const corner = make("div", { className: "corner" });
-  const stage = make("div", { className: "stage" }, layer, corner);
+  const caption = make("div", { className: "caption", role: "status" });
+  const stage = make("div", { className: "stage" }, layer, caption, corner);
   const panel = make("div", { className: "panel" });
   const root = make("div", { className: "scene" }, make("div", { className: "frame" }, stage, panel));
   const shadow = element.shadowRoot ?? element.attachShadow({ mode: "open" });
@@ -90,7 +96,8 @@ export function mount(element, state, onMove = () => {}) {
   });
   const hand = make("div", { className: "hand" });
   const extras = make("div", { className: "extras", style: "display: contents" });
-  panel.append(...(arm.title ? [make("div", { className: "title" }, arm.title)] : []), sliders.element, hand, extras, ...chooser(arm, view.show, () => view.update()));
+  const moves = buttons("moves of row", arm.rows.map((_, i) => ({ text: String(i + 1), label: `the four moves of row ${i + 1}` })), walkRow);
+  panel.append(...(arm.title ? [make("div", { className: "title" }, arm.title)] : []), sliders.element, hand, extras, ...chooser(arm, view.show, () => view.update()), moves.element);
   let postures = null, control = null;
 
   function show(next, told = false) {
@@ -115,6 +122,40 @@ export function mount(element, state, onMove = () => {}) {
     motion = null;
     playing = false;
     control?.set(share, playing);
+    if (view.step) standStill();
+  }
+
+  /** Show how a frame walks to the next one by the four moves of a row, one after the other. */
+  function walkRow(row) {
+    stop();
+    pressed(moves.buttons[row], true);
+    const values = rowsAt(arm, q)[row].slice(1), stays = values.map((value) => Math.abs(value) < 1e-9);
+    const lengths = stays.map((still) => (still ? 0.6 : 1.4));
+    const total = lengths.reduce((sum, length) => sum + length, 1.2); // and a rest at the end
+    animate(total, (done) => {
+      let left = done * total, k = 0;
+      while (k < 4 && left >= lengths[k]) left -= lengths[k++];
+      view.step = { row, share: k < 4 ? k + Math.min(left / (0.8 * lengths[k]), 1) : 4 };
+      view.update();
+      caption.replaceChildren(...(k < 4 ? describe(row, k, values[k]) : [`there is frame ${arm.names[row + 1]}`]));
+      if (done === 1) standStill();
+    });
+  }
+
+  const named = (word, i) => [word, below(arm.names[i])];
+
+  /** What move k of a row does, in words. */
+  function describe(row, k, value) {
+    const way = `${k + 1}. ${k % 2 ? "about" : "along"} `, axis = k < 2 ? named("X", row) : named("Z", row + 1);
+    const letter = [arm.letters[row].a, "α", arm.letters[row].d, "θ"][k];
+    return [way, ...axis, ` by ${letter} = ${k % 2 ? inDegrees(value) : inMetres(value)}`];
+  }
+
+  function standStill() {
+    moves.buttons.forEach((button) => pressed(button, false));
+    caption.replaceChildren();
+    view.step = null;
+    view.update();
   }
 
   /** Call `step` with shares from 0 to 1, over some seconds. */
@@ -176,15 +217,18 @@ export function mount(element, state, onMove = () => {}) {
     view.setTrace(trace, share);
   }
 
-  const forget = watchTheme(element, (theme) => {
-    root.classList.toggle("dark", theme === "dark");
-    view.theme = theme;
+  const theme = watchTheme(element, (name) => {
+    root.classList.toggle("dark", name === "dark");
+    view.theme = name;
   });
   view.setGhosts(ghosts);
   follow();
   build();
   show(q);
-  const size = new ResizeObserver(() => view.resize(stage.clientWidth, stage.clientHeight));
+  const size = new ResizeObserver(() => {
+    theme.look();
+    view.resize(stage.clientWidth, stage.clientHeight);
+  });
   size.observe(stage);
 
   return {
@@ -211,7 +255,7 @@ export function mount(element, state, onMove = () => {}) {
     dispose() {
       stop();
       clearTimeout(report);
-      forget();
+      theme.forget();
       size.disconnect();
       view.dispose();
     },

@@ -66,15 +66,18 @@ export class Picture {
       });
     }
     for (const { letter, origin, way, owners } of merged.values()) {
-      const colour = colours[letter], tip = add(origin, way, size);
-      for (const [from, to] of DASHES[letter]) {
-        solids.push(tube(add(origin, way, 0.8 * size * from), add(origin, way, 0.8 * size * to), 0.006 * this.unit, colour));
-      }
-      solids.push(cone(add(origin, way, 0.78 * size), tip, 0.02 * this.unit, colour));
+      solids.push(...arrow(letter, origin, way, size, 0.006 * this.unit, colours[letter]));
       const text = owners.map((i) => [letter.toUpperCase(), this.arm.names[i]]);
-      labels.push({ id: `frame ${letter} ${owners}`, text, kind: letter, at: tip, way, gap: 3 });
+      labels.push({ id: `frame ${letter} ${owners}`, text, kind: letter, at: add(origin, way, size), way, gap: 3 });
     }
     return { solids, labels };
+  }
+
+  /** A frame on its way from one to the next: larger than the others. */
+  walker(frame, colours) {
+    const origin = column(frame, 3), axes = LETTERS.map((letter, j) => [letter, column(frame, j)]);
+    const arrows = axes.flatMap(([letter, way]) => arrow(letter, origin, way, 1.45 * AXIS * this.unit, 0.009 * this.unit, colours[letter]));
+    return [...arrows, ball(origin, 0.02 * this.unit, colours.lit)];
   }
 
   /** Joint axes as centre lines, named at their end where the frame itself is not shown. */
@@ -134,8 +137,16 @@ export class Picture {
   outline(q) {
     const frames = chain(this.arm, q);
     const ends = this.pieces.flatMap((piece) => (piece.kind === "tube" ? [piece.from, piece.to] : [piece.centre]));
-    return [...ends.map((end) => at(frames, end)), ...frames.map((frame) => column(frame, 3))];
+    const rim = 5 * this.radius, plate = [[rim, 0, this.drop], [0, rim, this.drop], [-rim, 0, this.drop], [0, -rim, this.drop]];
+    return [...plate, ...ends.map((end) => at(frames, end)), ...frames.map((frame) => column(frame, 3))];
   }
+}
+
+/** An axis of a frame, of the given length and half width: its dashes tell which one it is. */
+function arrow(letter, origin, way, size, width, colour) {
+  const dashes = DASHES[letter].map((ends) => ends.map((end) => add(origin, way, 0.8 * size * end)));
+  const head = cone(add(origin, way, 0.78 * size), add(origin, way, size), 3.3 * width, colour);
+  return [...dashes.map(([from, to]) => tube(from, to, width, colour)), head];
 }
 
 const at = (frames, { frame, point }) => place(frames[frame], point);

@@ -3,7 +3,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
-import { add, chain, column, norm, subtract } from "./kinematics.js";
+import { add, chain, column, norm, subtract, walk } from "./kinematics.js";
 import { Labels } from "./labels.js";
 import { Picture } from "./picture.js";
 import { Solids, ball, tube } from "./solids.js";
@@ -46,6 +46,7 @@ export class View {
     this.lit = null;
     this.ghosts = [];
     this.trace = { points: [], done: 0 };
+    this.step = null; // {row, share}: the moves of a row under way
     this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true, stencil: true, preserveDrawingBuffer: true });
     this.renderer.shadowMap.enabled = true;
     this.canvas = this.renderer.domElement;
@@ -114,6 +115,7 @@ export class View {
   #listen(onPick, onHover) {
     const { canvas, controls } = this;
     canvas.tabIndex = 0;
+    canvas.addEventListener("webglcontextrestored", () => this.draw()); // a browser may take it away from a scene out of sight
     canvas.addEventListener("focus", () => (controls.enableZoom = true));
     canvas.addEventListener("blur", () => (controls.enableZoom = false));
     canvas.addEventListener("keydown", (event) => {
@@ -280,13 +282,14 @@ export class View {
   update() {
     if (!this.colours) return;
     const { picture, q, colours } = this, frames = chain(picture.arm, q);
-    const shown = [...this.show.frames];
+    const shown = this.step ? [this.step.row, this.step.row + 1] : [...this.show.frames];
     const nothing = { solids: [], labels: [] };
     const axes = this.show.axes ? picture.axes(frames, shown, colours) : nothing;
     const normals = this.show.normals ? picture.normals(frames, q, colours) : nothing;
     const parts = [picture.frames(frames, shown, colours), normals];
     this.arm.draw(picture.body(frames, colours, this.lit));
-    this.lines.draw(parts.flatMap((part) => part.solids));
+    const walker = this.step ? picture.walker(walk(picture.arm, q, this.step.row, this.step.share), colours) : [];
+    this.lines.draw([...parts.flatMap((part) => part.solids), ...walker]);
     this.axes.draw(axes.solids);
     this.marks = [...this.#numbers(), ...parts.flatMap((part) => part.labels), ...axes.labels];
     for (const ghost of this.ghosts) {
