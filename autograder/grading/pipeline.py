@@ -82,7 +82,7 @@ def grade(
         with _noting(failures, student):
             if force or not _is_done(course, stored.get(student, {}), student, exercise, names):
                 status[student] = "graded"
-            else:
+            elif not _has_pages(course, stored[student], student, exercise):
                 _write_pages(course, student, force=False)
         if status[student] == "unchanged":
             progress(student)
@@ -210,6 +210,12 @@ def _is_done(
         )
         for name in names
     )
+
+
+def _has_pages(course: Course, stored: Mapping[str, StoredNotebook], student: str, exercise: str) -> bool:
+    """True if every feedback page is there and shows what the gradebook holds."""
+    pages = course.step("feedback", student, exercise)
+    return all(notebook.has_page(pages / f"{name}.html") for name, notebook in stored.items())
 
 
 def _run(course: Course, run: Callable[..., Execution], student: str, exercise: str, name: str) -> Execution:
