@@ -83,12 +83,14 @@ def joint_values(robot, count, seed):
 def round_values(name):
     """All combinations of round angles (8^n, n); slides take the same numbers as metres.
 
-    Variants of the six-axis robots of the catalogue take one combination in sixteen.
+    Variants of the six-axis robots of the catalogue take one combination in sixteen, arms without a class of their own
+    one in 64: their poses cost more.
     """
     joints = SOLVABLE[name].inverse_model.joints
     combinations = np.stack(np.meshgrid(*[ROUND] * joints), axis=-1).reshape(-1, joints)
-    if joints == 6 and name not in robots.names():
-        return np.random.default_rng(2).permutation(combinations)[::16]
+    own_class = SOLVABLE[name].model is not None
+    if joints == 6 and (name not in robots.names() or not own_class):
+        return np.random.default_rng(2).permutation(combinations)[:: 16 if own_class else 64]
     return combinations
 
 
