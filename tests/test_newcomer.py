@@ -94,7 +94,9 @@ class Newcomer:
     def __init__(self, root: Path) -> None:
         self.root = root
         for folder in FOLDERS:
-            shutil.copytree(ROOT / folder, root / folder, ignore=shutil.ignore_patterns(".ipynb_checkpoints"))
+            shutil.copytree(
+                ROOT / folder, root / folder, ignore=shutil.ignore_patterns(".ipynb_checkpoints", "node_modules")
+            )
         for file in ROOT.iterdir():
             if file.is_file() and not file.name.startswith(".") and file.suffix in (".md", ".toml", ".py", ".txt", ""):
                 shutil.copy(file, root)

@@ -108,7 +108,9 @@ def test_a_wrong_table_is_refused_in_words(table, values, message):
 @pytest.mark.parametrize(
     "act, message",
     [
-        (lambda scene: setattr(scene, "q", [1, 2]), r"q: .*has 4 numbers: θ₁, θ₂, d₂, θ₄"),
+        (lambda scene: setattr(scene, "q", [1, 2]), r"q: .*is 4 finite numbers \(θ₁, θ₂, d₂, θ₄\), found \[1, 2\]"),
+        (lambda scene: setattr(scene, "q", []), "q: expected a posture"),
+        (lambda scene: scene.play([[0, 0, 0, 0], [1, 2, 3]]), "path: .*4 finite numbers"),
         (lambda scene: setattr(scene, "q", [1, 2, 3, float("nan")]), "finite"),
         (lambda scene: scene.ghosts([[1, 2, 3]]), "solutions: "),
         (lambda scene: scene.ghosts(np.zeros((65, 4))), "at most 64"),
@@ -122,6 +124,13 @@ def test_a_wrong_table_is_refused_in_words(table, values, message):
 def test_wrong_numbers_are_refused_in_words(act, message):
     with pytest.raises(ValueError, match=message):
         act(Scene(SCARA, LENGTHS))
+
+
+def test_a_single_posture_may_stand_alone():
+    scene = Scene(SCARA, LENGTHS).ghosts([sympy.pi / 2, 0, 0.1, 0])
+    assert np.array(scene.state()["ghosts"]) == pytest.approx(np.array([[np.pi / 2, 0, 0.1, 0]]))
+    scene.q = sympy.Matrix([0, sympy.pi, 0, 0])
+    assert scene.q == pytest.approx([0, np.pi, 0, 0])
 
 
 def test_sliders_have_round_values_within_the_limits():

@@ -240,6 +240,8 @@ def with_kit(course_copy, small):
     (kit / "__pycache__/check.pyc").write_text("")
     (course_copy / "course/build/lib/dhkit").mkdir(parents=True)
     (course_copy / "course/build/lib/dhkit/check.py").write_text("def check(): ...\n")
+    (kit / "scene/js/node_modules").mkdir(parents=True)
+    (kit / "scene/js/node_modules/tool.js").write_text("")
     (course_copy / "course/dhkit.egg-info").mkdir()
     (course_copy / "course/dhkit.egg-info/PKG-INFO").write_text("")
     (course_copy / "course/secret").symlink_to(course_copy / "solutions")

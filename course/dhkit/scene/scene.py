@@ -87,7 +87,10 @@ class Scene:
 
     @q.setter
     def q(self, values: Sequence[float]) -> None:
-        self._q = self._rows([values], "q")[0]
+        rows = self._rows(values, "q", 1)
+        if not rows:
+            raise ValueError("q: expected a posture, found none")
+        self._q = rows[0]
         if self._widget is not None:
             self._widget.q = self._q
 
@@ -124,7 +127,7 @@ class Scene:
         Scene
             Itself, so that it is shown at the end of a cell.
         """
-        rows = self._rows(path, "path", MOST_POINTS)
+        rows = self._rows(path, "path")
         if len(rows) == 1:
             raise ValueError("path: expected two or more postures, found one")
         self._seconds = as_number(seconds, "seconds")
@@ -214,14 +217,18 @@ class Scene:
     def _moved(self, change: Any) -> None:
         self._q = list(change.new)
 
-    def _rows(self, rows: Any, what: str, most: int = 1) -> list[list[float]]:
-        """Postures as lists of finite numbers."""
+    def _rows(self, rows: Any, what: str, most: int = MOST_POINTS) -> list[list[float]]:
+        """Postures as lists of finite numbers; a single one may stand alone."""
         joints = self.arm.joints
         try:
-            found = as_rows(rows, what, len(joints))
-        except ValueError as fault:
+            flat = np.array(rows, dtype=float)
+            found = as_rows(flat.reshape(1, -1) if flat.size == len(joints) else flat, what, len(joints))
+        except (TypeError, ValueError):
             names = ", ".join(joint.name for joint in joints)
-            raise ValueError(f"{fault}; a posture of this robot has {len(joints)} numbers: {names}") from None
+            text = str(rows).replace("\n", " ")
+            raise ValueError(
+                f"{what}: a posture of this robot is {len(joints)} finite numbers ({names}), found {text[:60]}"
+            ) from None
         if len(found) > most:
             raise ValueError(f"{what}: expected at most {most} postures, found {len(found)}")
         return found.tolist()
