@@ -3,9 +3,10 @@
 Lengths in metres, angles in radians, arrays batch-first: q (..., n), poses (..., 4, 4). What follows is its public
 face; everything in it is tested, whether or not a question asks for it.
 
-**Tables.** `DHTable` describes a serial robot, `robots` holds those of the documents; a table comes from classic rows
-or a URDF joint list too, and can be printed (`DHTable.to_markdown`, `DHTable.to_latex`). Right angles with few digits
-(1.5708) are read as such, with a `RoundedInput` warning that says how far off they were.
+**Tables.** `DHTable` describes a serial robot, `robots` holds those of the documents; a table comes from classic rows, a
+URDF joint list or a URDF file (`table_from_urdf_file`) too, and can be printed (`DHTable.to_markdown`,
+`DHTable.to_latex`). Right angles with few digits (1.5708) are read as such, with a `RoundedInput` warning that says how
+far off they were.
 
 >>> import numpy as np
 >>> from autograder.reference import DHTable, robots
@@ -143,6 +144,7 @@ from .solutions import Batch, Nearest, Solutions
 from .status import Failure, Flag, RoundedInput, Status
 from .tables import ClassicTable, DHRow, DHTable
 from .urdf import UrdfJoint, table_from_urdf
+from .urdf_file import table_from_urdf_file
 
 __all__ = [
     "Batch",
@@ -172,6 +174,7 @@ __all__ = [
     "scara_centres",
     "scara_determinant",
     "table_from_urdf",
+    "table_from_urdf_file",
     "two_link_determinant",
     "workspace",
 ]

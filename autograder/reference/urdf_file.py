@@ -1,0 +1,133 @@
+"""Robots from URDF files: the chain from one link to another, its origins, axes and joint limits."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+
+from .tables import DHTable
+from .urdf import UrdfJoint, table_from_urdf
+
+_MOST_BYTES = 10_000_000
+_MOVING = ("revolute", "continuous", "prismatic")
+
+
+def table_from_urdf_file(path: str | Path, base: str | None = None, tip: str | None = None) -> DHTable:
+    """The DHm table of a chain in a URDF file, with its joint limits; see `table_from_urdf`.
+
+    Parameters
+    ----------
+    path : str or Path
+    base, tip : str, optional
+        Names of the first and the last link. By default the root of the tree, and the only link that has no child.
+
+    Returns
+    -------
+    DHTable
+        Its poses are those of the tip seen from the base, radians and metres. Limits where every joint has some;
+        a continuous joint counts as unlimited, 1000 turns to either side.
+
+    Raises
+    ------
+    ValueError
+        For a file that is no URDF, is larger than 10 MB, declares entities, has numbers that are none, or links that
+        are not there; where the chain forks, naming the links to choose from; and as `table_from_urdf`.
+    """
+    path = Path(path)
+    root = _parsed(path)
+    joints = {}
+    for element in root.findall("joint"):
+        child = _link(element, "child")
+        if child in joints:
+            raise ValueError(f"link {child} has two parents")
+        joints[child] = element
+    parents = {child: _link(element, "parent") for child, element in joints.items()}
+    tip = tip if tip is not None else _only(sorted(set(parents) - set(parents.values())), "tip", "end of the chain")
+    base = base if base is not None else _only(sorted(set(parents.values()) - set(parents)), "base", "root")
+    chain: list[ElementTree.Element] = []
+    link = tip
+    while link != base:
+        if link not in joints or len(chain) > len(joints):
+            raise ValueError(f"no chain leads from link {base} to link {tip}: it ends at {link}")
+        chain.insert(0, joints[link])
+        link = parents[link]
+    read = [_joint(element) for element in chain]
+    limits = [_limits(element) for element, joint in zip(chain, read) if joint.kind in _MOVING]
+    known = [pair for pair in limits if pair is not None]
+    name = root.get("name") or path.stem
+    return table_from_urdf(read, name, known if len(known) == len(limits) else None)
+
+
+def _parsed(path: Path) -> ElementTree.Element:
+    if path.stat().st_size > _MOST_BYTES:
+        raise ValueError(f"{path} is larger than {_MOST_BYTES // 10**6} MB")
+    text = path.read_text(encoding="utf-8")
+    if "<!ENTITY" in text or "<!DOCTYPE" in text:
+        raise ValueError(f"{path} declares entities, which a URDF has no use for")
+    try:
+        root = ElementTree.fromstring(text)
+    except ElementTree.ParseError as error:
+        raise ValueError(f"{path} is no XML: {error}") from None
+    if root.tag != "robot":
+        raise ValueError(f"{path} is no URDF: its root is <{root.tag}>, not <robot>")
+    return root
+
+
+def _only(names: list[str], what: str, role: str) -> str:
+    if len(names) != 1:
+        raise ValueError(f"name the {what}: the file has {len(names)} links for the {role}: {', '.join(names)}")
+    return names[0]
+
+
+def _link(element: ElementTree.Element, role: str) -> str:
+    found = element.find(role)
+    name = None if found is None else found.get("link")
+    if not name:
+        raise ValueError(f"joint {element.get('name')} names no {role} link")
+    return name
+
+
+def _joint(element: ElementTree.Element) -> UrdfJoint:
+    kind = element.get("type", "")
+    if element.find("mimic") is not None:
+        raise ValueError(f"joint {element.get('name')} follows another one (mimic), which no table can say")
+    if kind not in (*_MOVING, "fixed"):
+        raise ValueError(f"joint {element.get('name')}: {kind or 'no'} type, expected {', '.join(_MOVING)} or fixed")
+    origin, axis = element.find("origin"), element.find("axis")
+    xyz = _three(element, origin, "xyz", (0.0, 0.0, 0.0))
+    return UrdfJoint(
+        xyz, _three(element, origin, "rpy", (0.0, 0.0, 0.0)), _three(element, axis, "xyz", (1.0, 0.0, 0.0)), kind
+    )
+
+
+def _three(
+    joint: ElementTree.Element, element: ElementTree.Element | None, name: str, otherwise: tuple[float, float, float]
+) -> tuple[float, float, float]:
+    text = None if element is None else element.get(name)
+    if text is None:
+        return otherwise
+    values = [_number(joint, part) for part in text.split()]
+    if len(values) != 3:
+        raise ValueError(f"joint {joint.get('name')}: {name} has {len(values)} numbers, not 3")
+    return values[0], values[1], values[2]
+
+
+def _limits(joint: ElementTree.Element) -> tuple[float, float] | None:
+    if joint.get("type") == "continuous":
+        return -2000 * np.pi, 2000 * np.pi
+    found = joint.find("limit")
+    if found is None or found.get("lower") is None or found.get("upper") is None:
+        return None
+    return _number(joint, found.get("lower") or ""), _number(joint, found.get("upper") or "")
+
+
+def _number(joint: ElementTree.Element, text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = np.nan
+    if not np.isfinite(value):
+        raise ValueError(f"joint {joint.get('name')}: expected a number, found {text[:40]!r}")
+    return value
