@@ -102,7 +102,7 @@ class Robot:
         return self.inverse_model.solve(T, near, tol, limits)
 
     def postures(self, T: ArrayLike) -> np.ndarray:
-        """The joint values (k, n) of all postures of one pose, as `inverse` lists them, without their names and reasons.
+        """The joint values (k, n) of all postures of one pose, as `inverse` lists them, without names and reasons.
 
         For an elbow arm with a spherical wrist in a small part of its time.
         """

@@ -67,7 +67,7 @@ def _sorted(*arrays: np.ndarray) -> list[np.ndarray]:
 
 @cache
 def _to_half_angle(degree: int) -> np.ndarray:
-    """From the coefficients of e^(i k angle), in the order of the FFT, to those of t^0, t^1, ... times (1 + t^2)^degree."""
+    """From the coefficients of e^(i k angle), as the FFT orders them, to those of t^0, ... times (1 + t^2)^degree."""
     matrix = np.zeros((2 * degree + 1, 2 * degree + 1), dtype=complex)
     for column, k in enumerate([*range(degree + 1), *range(-degree, 0)]):
         power = np.ones(1, dtype=complex)

@@ -1,7 +1,7 @@
 """Six joints of which three neighbours form a group: a spherical wrist, or three joints that move in a plane.
 
-Turns about axes through one point leave that point in place; turns about parallel axes, and slides square to them, leave
-their plane in place. So the other three joints alone bring the point (the plane) to where it must be: a problem of
+Turns about axes through one point leave that point in place; turns about parallel axes, and slides square to them,
+leave their plane in place. So the other three joints alone bring the point (the plane) to where it must be: a problem of
 three unknowns, in `elimination`. Then the three of the group do the rest. The group may stand anywhere in the arm:
 what goes from the tool to the base is as good as a link. UR arms have their group in axes 2 to 4, oblique and offset
 shoulders, Stanford arms, gantries and cylindrical arms with a wrist have it in axes 4 to 6. Source: D. Pieper, "The
@@ -125,7 +125,7 @@ class Decoupled(LoopArm):
     branch_count = 8
 
     def __init__(self, table: DHTable) -> None:
-        """Raises ValueError unless three neighbouring joints form a group, and the joints give all freedoms they can."""
+        """Raises ValueError unless three neighbouring joints form a group and the joints give all freedoms they can."""
         super().__init__(table)
         if not 3 <= self.joints <= 6:
             raise ValueError(f"it has {self.joints} joints, not 3 to 6")

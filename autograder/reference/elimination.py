@@ -102,7 +102,7 @@ class PointProblem:
         known = np.array([[1.0], [1.0], [0.0]] if self.slides[0] else [[0.0], [0.0], [1.0]])
 
         def before(v: np.ndarray) -> np.ndarray:
-            """The point with the second joint at zero; coordinates that the first cannot change, counted from the goal."""
+            """The point with the second joint at zero; coordinates that the first cannot change count from the goal."""
             y = carried(v)
             x = np.einsum("ij,j...->i...", turn, y) + _column(shift[:, None], y.ndim)
             return x - _column(known * t, y.ndim)

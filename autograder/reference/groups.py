@@ -52,7 +52,7 @@ class Group(ABC):
 
     @abstractmethod
     def solve(self, D: np.ndarray, near: Near, blurred: np.ndarray) -> Both:
-        """The joints of the group that do the displacement D (K, N, 4, 4), known to half of its digits where blurred (K, N)."""
+        """The joints of the group that do the displacement D (K, N, 4, 4); where blurred (K, N), half its digits are right."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ class Sphere(Group):
 
     @classmethod
     def of(cls, loop: Loop, at: int, joints: int) -> Sphere | None:
-        """The group of three joints from index `at` on, None if they do not form it; the arm has its first `joints` joints."""
+        """The group of the joints from index `at` on, None if they form none; joints from `joints` on are not there."""
         if any(loop.slides[at : at + 3]):
             return None
         one, other = loop.links[at + 1], loop.links[at + 2]

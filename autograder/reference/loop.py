@@ -16,7 +16,7 @@ from .forward import Chain
 
 @dataclass(frozen=True)
 class Loop:
-    """Links (n + 1 matrices 4x4) and, for each of the n motions between them, whether it is a slide, and which joint's."""
+    """Links (n + 1 matrices 4x4) and, for each of the n motions between them, if it is a slide, and which joint's."""
 
     links: tuple[np.ndarray, ...]
     slides: tuple[bool, ...]
@@ -51,7 +51,7 @@ class Loop:
         return Loop(links, self.slides[:index] + self.slides[index + 1 :], tuple(range(len(self.slides) - 1)))
 
     def reversed(self) -> Loop:
-        """The loop walked from the tool to the base: its pose is the inverse one, its variables are the negative ones."""
+        """The loop walked from the tool to the base: its pose is the inverse one, its variables are negative."""
         return Loop(tuple(np.linalg.inv(link) for link in self.links[::-1]), self.slides[::-1], self.joints[::-1])
 
 

@@ -54,7 +54,7 @@ class Algebra(Protocol):
     """Finds candidates for poses of a loop of six joints."""
 
     def candidates(self, T: np.ndarray, near: np.ndarray) -> Candidates:
-        """For poses (N, 4, 4), lengths in sizes of the arm; near (joints of the loop, N) are the rows where they are free."""
+        """For poses (N, 4, 4), lengths in sizes of the arm; near (n, N) are the rows where they are free."""
 
 
 class LoopArm(InverseModel):
@@ -110,7 +110,7 @@ class LoopArm(InverseModel):
         return branches
 
     def _branches(self, poses: np.ndarray, start: np.ndarray, tol: float) -> tuple[Branches, np.ndarray]:
-        """All branches with free rows at start (n, N), and those (K, N) that would be families if the rest could follow."""
+        """All branches with free rows at start (n, N), and (K, N) which would be families if the rest could follow."""
         return self._settled(self.candidates(in_unit(poses, 1 / self.size), start / self._unit), poses, tol)
 
     def _settled(self, found: Candidates, poses: np.ndarray, tol: float) -> tuple[Branches, np.ndarray]:

@@ -104,7 +104,7 @@ class OnePose:
         return rows
 
     def _wrist(self, columns: list[tuple[complex, float]]) -> tuple[list[float], list[float]] | None:
-        """Both triples of the wrist for the hand's axes seen from the forearm; None where its outer axes are aligned."""
+        """Both triples of the wrist for the hand's axes seen from the forearm; None where outer axes are aligned."""
         ca, sa = self._twist
         (p1, z1), (p2, z2), (p3, z3) = columns
         m13, m23, m33 = p3.real, ca * p3.imag + sa * z3, ca * z3 - sa * p3.imag

@@ -20,9 +20,9 @@ _FIRST_CHOICE = (2, 6, 4, 0, 3, 1, 5)  # of free joints: the upper arm's turn, a
 class RedundantArm(LoopArm):
     """Seven joints. Every pose has a family of postures, represented by the member whose free joint is near's.
 
-    The free joint is the first, in the order 3, 7, 5, 1, 4, 2, 6 and slides before turns, that leaves an arm with a group
-    of three joints; if none does, one that leaves six turns. Branches are those of that arm. Where the wished value of the
-    free joint is out of reach, it is moved in steps of 2 degrees (of a slide: of 3 % of the size).
+    The free joint is the first, in the order 3, 7, 5, 1, 4, 2, 6 and slides before turns, that leaves an arm with a
+    group of three joints; if none does, one that leaves six turns. Branches are those of that arm. Where the wished
+    value of the free joint is out of reach, it is moved in steps of 2 degrees (of a slide: of 3 % of the size).
 
     Attributes
     ----------

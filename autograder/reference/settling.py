@@ -129,7 +129,7 @@ class Task:
         return np.concatenate([shift, np.where(over, axis + np.sign(axis + 1e-300), axis)], axis=1)
 
     def told_by_rank(self, q: np.ndarray, reached: np.ndarray, flags: np.ndarray) -> np.ndarray:
-        """Flags (K, N): no family where the Jacobian has its rank; STRETCHED, as branches merge, where not and none is free."""
+        """Flags (K, N): no family where the Jacobian has its rank; where not and none is free, STRETCHED: branches merge."""
         branch, pose = np.nonzero(reached)
         values = np.linalg.svd(self.jacobian(q[:, branch, pose].T), compute_uv=False)
         singular = values[:, -1] < _SINGULAR * values[:, 0]

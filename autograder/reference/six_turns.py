@@ -2,8 +2,8 @@
 
 Joints a to f stand in a loop with links B_0 to B_5 behind them. A point and a direction on axis f, seen from before c,
 depend on (c, d, e) as seen one way round the loop and on (a, b) as seen the other way round. With their products that
-Raghavan and Roth found, that makes fourteen equations, affine in each cosine and sine; the eight terms in a and b leave by linear
-algebra, six equations remain in d and e, and with them multiplied by tan(d/2) a matrix of 12 rows, quadratic in
+Raghavan and Roth found, that makes fourteen equations, affine in each cosine and sine; the eight terms in a and b leave by
+linear algebra, six equations remain in d and e, and with them multiplied by tan(d/2) a matrix of 12 rows, quadratic in
 tan(c/2), whose singular points are the up to 16 postures. Which joint is a, is free: a loop has no beginning.
 Sources: M. Raghavan, B. Roth, "Inverse kinematics of the general 6R manipulator and related linkages", 1993,
 doi:10.1115/1.2919218; D. Manocha, J. Canny, "Efficient inverse kinematics for general 6R manipulators", 1994,
@@ -89,7 +89,7 @@ def _solved(A: np.ndarray, B: np.ndarray) -> np.ndarray:
 
 
 def _six_free_of(terms: np.ndarray, rest: np.ndarray) -> np.ndarray:
-    """Six combinations (N, 14, 6) of fourteen equations in which terms (N, 14, 8) vanish, and rest (N, 14, 27) does not."""
+    """Six combinations (N, 14, 6) of fourteen equations without terms (N, 14, 8), and with most of rest (N, 14, 27)."""
     left, sizes, _ = np.linalg.svd(terms)
     rank = int((sizes > _RANK * sizes[:, :1]).sum(axis=1).max(initial=0))
     free = left[:, :, rank:]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -21,7 +22,8 @@ def table_from_urdf_file(path: str | Path, base: str | None = None, tip: str | N
     ----------
     path : str or Path
     base, tip : str, optional
-        Names of the first and the last link. By default the root of the tree, and the only link that has no child.
+        Names of the first and the last link. By default the root of the tree, and of the links without child the
+        one that most joints move.
 
     Returns
     -------
@@ -44,20 +46,29 @@ def table_from_urdf_file(path: str | Path, base: str | None = None, tip: str | N
             raise ValueError(f"link {child} has two parents")
         joints[child] = element
     parents = {child: _link(element, "parent") for child, element in joints.items()}
-    tip = tip if tip is not None else _only(sorted(set(parents) - set(parents.values())), "tip", "end of the chain")
     base = base if base is not None else _only(sorted(set(parents.values()) - set(parents)), "base", "root")
+    if tip is None:
+        ends = {end: _chain(joints, base, end) for end in sorted(set(parents) - set(parents.values()))}
+        moving = {end: sum(joint.get("type") in _MOVING for joint in chain) for end, chain in ends.items()}
+        tip = _only([end for end in ends if moving[end] == max(moving.values())], "tip", "end of the chain")
+    chain = _chain(joints, base, tip)
+    read = [_joint(element) for element in chain]
+    limits = [_limits(element) for element, joint in zip(chain, read) if joint.kind in _MOVING]
+    known = [pair for pair in limits if pair is not None]
+    name = root.get("name") or path.stem
+    return table_from_urdf(read, name, known if len(known) == len(limits) else None)
+
+
+def _chain(joints: Mapping[str, ElementTree.Element], base: str, tip: str) -> list[ElementTree.Element]:
+    """The joints from link base to link tip, of joints by their child links."""
     chain: list[ElementTree.Element] = []
     link = tip
     while link != base:
         if link not in joints or len(chain) > len(joints):
             raise ValueError(f"no chain leads from link {base} to link {tip}: it ends at {link}")
         chain.insert(0, joints[link])
-        link = parents[link]
-    read = [_joint(element) for element in chain]
-    limits = [_limits(element) for element, joint in zip(chain, read) if joint.kind in _MOVING]
-    known = [pair for pair in limits if pair is not None]
-    name = root.get("name") or path.stem
-    return table_from_urdf(read, name, known if len(known) == len(limits) else None)
+        link = _link(joints[link], "parent")
+    return chain
 
 
 def _parsed(path: Path) -> ElementTree.Element:

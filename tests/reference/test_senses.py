@@ -184,20 +184,48 @@ ELBOW_WRIST, POINT, GROUP = "elbow arm with a spherical wrist", "arm of three jo
     "rows, kind, message",
     [
         (UR5, ELBOW_WRIST, "axes 4, 5 and 6 do not meet in one point: d_5 = 0.09 m"),
-        ([*RX90[:2], (0, 0.43, 0.3, 0, 0), *RX90[3:]], ELBOW_WRIST, "axes 2 and 3 are not parallel: alpha_2 = 17.1887 degrees"),
+        (
+            [*RX90[:2], (0, 0.43, 0.3, 0, 0), *RX90[3:]],
+            ELBOW_WRIST,
+            "axes 2 and 3 are not parallel: alpha_2 = 17.1887 degrees",
+        ),
         ([*RX90[:2], (0, 0.43, PI + 0.3, 0, 0), *RX90[3:]], ELBOW_WRIST, "alpha_2 = -162.811 degrees"),
-        ([RX90[0], (0, 0, 1.2, 0, 0), *RX90[2:]], ELBOW_WRIST, "axes 1 and 2 are not at a right angle: alpha_1 = 68.7549 degrees"),
-        ([*RX90[:4], (0, 0, 1.0, 0, 0), RX90[5]], ELBOW_WRIST, "axes 4 and 5 are not at a right angle: alpha_4 = 57.2958 degrees"),
+        (
+            [RX90[0], (0, 0, 1.2, 0, 0), *RX90[2:]],
+            ELBOW_WRIST,
+            "axes 1 and 2 are not at a right angle: alpha_1 = 68.7549 degrees",
+        ),
+        (
+            [*RX90[:4], (0, 0, 1.0, 0, 0), RX90[5]],
+            ELBOW_WRIST,
+            "axes 4 and 5 are not at a right angle: alpha_4 = 57.2958 degrees",
+        ),
         ([*RX90[:2], (1, 0.43, 0, 0, 0), *RX90[3:]], ELBOW_WRIST, "joint 3 is prismatic, not revolute"),
         ([*RX90[:2], (0, 0, 0, 0.15, 0), *RX90[3:]], ELBOW_WRIST, "the upper arm has no length: a_2 = 0"),
-        ([(0, 0, 0, 0, 0), (0, 0.4, 0, 0, 0), (1, 0.3, 0, 0, 0), (0, -0.1, 0, 0, 0)], "SCARA", "beside the quill: a_3 = -0.1 m"),
-        ([(0, 0, 0, 0, 0), (0, 0.4, 0, 0, 0), (0, 0, 0, 0, 0), (0, 0.3, 0, 0, 0)], "planar arm", "link 2 has no length: a_2 = 0"),
+        (
+            [(0, 0, 0, 0, 0), (0, 0.4, 0, 0, 0), (1, 0.3, 0, 0, 0), (0, -0.1, 0, 0, 0)],
+            "SCARA",
+            "beside the quill: a_3 = -0.1 m",
+        ),
+        (
+            [(0, 0, 0, 0, 0), (0, 0.4, 0, 0, 0), (0, 0, 0, 0, 0), (0, 0.3, 0, 0, 0)],
+            "planar arm",
+            "link 2 has no length: a_2 = 0",
+        ),
         ([(1, 0, 0, 0, 0), (1, 0, HALF, 0, 0), (1, 0, HALF, 0, 0)], "planar arm", "joint 1 is prismatic, not revolute"),
-        ([(1, 0, 0, 0, 0), (1, 0, HALF, 0, 0), (1, 0, HALF, 0, 0)], POINT, "its 3 joints give its point 2 freedoms only"),
-        ([*UR5[:3], (0, -0.39, 0.2, 0.1, 0), *UR5[4:]], GROUP, "no three neighbouring axes meet in one point or are parallel"),
+        (
+            [(1, 0, 0, 0, 0), (1, 0, HALF, 0, 0), (1, 0, HALF, 0, 0)],
+            POINT,
+            "its 3 joints give its point 2 freedoms only",
+        ),
+        (
+            [*UR5[:3], (0, -0.39, 0.2, 0.1, 0), *UR5[4:]],
+            GROUP,
+            "no three neighbouring axes meet in one point or are parallel",
+        ),
         ([*RX90[:2], (0, 0, 0, 0.15, 0), *RX90[3:]], GROUP, "its 6 joints give 5 freedoms only"),
     ],
-)  # fmt: skip
+)
 def test_a_class_says_what_it_misses_in_the_table(rows, kind, message):
     assert message in misfits(table(rows))[kind]
 

@@ -53,6 +53,8 @@ def test_limits_that_are_not_there_and_endless_joints(written):
 def test_a_fork_asks_which_way(written):
     path = written(kr210(joint("finger", "link_7", "left", ("0 0 0", "0 0 0"), kind="fixed")))
     assert table_from_urdf_file(path).chain.joints == 6
+    ros = joint("base_link-base", "base_link", "base", ("0 0 0", "0 0 0"), kind="fixed")
+    assert table_from_urdf_file(written(kr210(ros))).chain.joints == 6
     fork = joint("a", "link_7", "left", ("0 0 0", "0 0 0"), kind="fixed")
     fork += joint("b", "link_7", "right", ("0 0.1 0", "0 0 0"), kind="fixed")
     path = written(kr210(fork))
