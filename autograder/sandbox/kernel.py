@@ -6,6 +6,7 @@ that the trusted side opened, so no folder with sockets has to be shared with
 the kernel, and no name in the file system is its to replace.
 """
 
+import contextlib
 import sys
 import threading
 
@@ -42,4 +43,6 @@ def launch(argv):
 
 
 if __name__ == "__main__":
+    with contextlib.suppress(ImportError):
+        import dhkit  # noqa: F401 - as in a warm kernel, a file of this name beside the notebook is not the kit
     launch(sys.argv[1:])

@@ -15,6 +15,7 @@ import psutil
 
 from autograder import cli
 from autograder.grading import rendering
+from autograder.sandbox import warm
 
 ADOPT_ORPHANS = 36  # PR_SET_CHILD_SUBREAPER of prctl(2)
 
@@ -49,6 +50,7 @@ def living_descendants() -> list[str]:
 def main() -> None:
     adopt_orphans()
     code = cli.main(sys.argv[2:])
+    warm.end_parents()  # as when the process ends
     sys.stdout.flush()
     report = {"exit": code, "peak": peak_memory(), "left": living_descendants()}
     Path(sys.argv[1]).write_text(json.dumps(report))

@@ -337,3 +337,9 @@ def test_a_new_folder_that_is_swept_away_at_once_is_made_again(tmp_path, monkeyp
     monkeypatch.setattr(tempfile, "mkdtemp", then_swept)
     with scratch.PrivateFolder() as own:
         assert own.exists() and len(made) == 2
+
+
+def test_a_file_with_the_name_of_the_kit_is_not_the_kit(either, printed, tmp_path):
+    (tmp_path / "dhkit.py").write_text("check = 1")
+    run = either("from dhkit import check; print(check.__module__)", workdir=tmp_path)
+    assert printed(run, 0) == "dhkit.check"
