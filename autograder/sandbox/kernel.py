@@ -6,9 +6,10 @@ that the trusted side opened, so no folder with sockets has to be shared with
 the kernel, and no name in the file system is its to replace.
 """
 
-import contextlib
+import importlib.util
 import sys
 import threading
+import types
 
 # A stack counts as memory in its whole size: with the usual 8 MiB, a hundred idle threads left later cells none.
 threading.stack_size(2 << 20)
@@ -43,6 +44,7 @@ def launch(argv):
 
 
 if __name__ == "__main__":
-    with contextlib.suppress(ImportError):
-        import dhkit  # noqa: F401 - as in a warm kernel, a file of this name beside the notebook is not the kit
+    if (kit := importlib.util.find_spec("dhkit")) is not None:
+        # As in a warm kernel, a file of this name beside the notebook is not the kit.
+        sys.meta_path.insert(0, types.SimpleNamespace(find_spec=lambda name, *_: kit if name == kit.name else None))
     launch(sys.argv[1:])
