@@ -246,6 +246,7 @@ def test_submissions_are_not_touched(handed_in, ours, stock):
 def test_nothing_else_is_written_and_nothing_stays(ours, expected):
     made = {path.name for path in ours.iterdir()}
     assert made == {
+        "build",
         "solutions",
         "exercises",
         "submitted",
