@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from autograder.reference import DHTable, Robot, Status
 from autograder.reference.decoupled import Decoupled, PointArm
 
-pytestmark = pytest.mark.filterwarnings("error")
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("error")]
 
 PI, HALF = np.pi, np.pi / 2
 WRIST = [(0, 0, 0, 0, 0), (0, 0, -HALF, 0, 0), (0, 0, HALF, 0.1, 0)]

@@ -7,7 +7,7 @@ import sympy as sp
 from autograder.reference import DHTable, Robot, Status, misfits
 from autograder.reference.general import GeneralArm
 
-pytestmark = pytest.mark.filterwarnings("error")
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("error")]
 
 PI, HALF = np.pi, np.pi / 2
 ARMS = {
