@@ -109,7 +109,7 @@ def why_not(arm: Described) -> str:
 
 def public_half(arm: Described, kinds: list[str]) -> str:
     """The file of what is asked: one table for each question."""
-    tables = {kind: dict(_about(arm, kind)) for kind in kinds}
+    tables = {kind: _about(arm, kind) for kind in kinds}
     lines = [f"# {arm.title}: what is asked; made by autograder new-exercise."]
     for kind, fields in tables.items():
         nested = {key: value for key, value in fields.items() if isinstance(value, Mapping)}
@@ -127,12 +127,13 @@ def _entries(fields: Mapping[str, object]) -> Iterator[str]:
     return (f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in fields.items())
 
 
-def _about(arm: Described, kind: str) -> Iterator[tuple[str, object]]:
+def _about(arm: Described, kind: str) -> dict[str, object]:
+    """The table of one question."""
     letters, joints, count = arm.letters, arm.joints, len(arm.table.rows)
     units = "lengths in metres, angles in radians"
     matrix = {"kind": "transform", "shape": [4, 4], "symbols": letters, "units": units}
     if kind == asked.TABLE:
-        yield from {
+        return {
             "title": "DHm table",
             "kind": "dh_table",
             "shape": [count, 5],
@@ -145,23 +146,25 @@ def _about(arm: Described, kind: str) -> Iterator[tuple[str, object]]:
                 "In row i, a and alpha belong to the link before joint i, along and about X_(i-1); d and theta are counted along and about Z_i.",
             ],
             "minutes": 5 + 2 * count,
-        }.items()
-    elif kind == asked.RECURSION:
-        yield from {"title": f"The end effector seen from frame 1, 1T{count}", **matrix}.items()
-        yield from {
+        }
+    if kind == asked.RECURSION:
+        return {
+            "title": f"The end effector seen from frame 1, 1T{count}",
+            **matrix,
             "expected": f"a 4x4 sympy Matrix in {', '.join(letters[1:])}",
             "hints": ["One matrix for each row, the product from left to right, without the first one."],
             "minutes": 4 + count,
-        }.items()
-    elif kind == asked.TRANSFORM:
-        yield from {"title": f"From the base to the end effector, 0T{count}", **matrix}.items()
-        yield from {
+        }
+    if kind == asked.TRANSFORM:
+        return {
+            "title": f"From the base to the end effector, 0T{count}",
+            **matrix,
             "expected": f"a 4x4 sympy Matrix in {', '.join(letters)}",
             "hints": ["One step is left: 0T1 times what you have."],
             "minutes": 5,
-        }.items()
-    elif kind == asked.FORWARD:
-        yield from {
+        }
+    if kind == asked.FORWARD:
+        return {
             "title": "Forward model as a function",
             "kind": "function",
             "units": units,
@@ -171,18 +174,17 @@ def _about(arm: Described, kind: str) -> Iterator[tuple[str, object]]:
             ],
             "minutes": 10,
             "returns": {"kind": "transform", "decimals": 4, "shape": [4, 4], "expected": "a 4x4 array of numbers"},
-        }.items()
-    else:
-        yield from {
-            "title": f"Every way to reach a {'point' if asked.is_for_point(arm) else 'pose'}",
-            "kind": "joint_solutions",
-            "decimals": 3,
-            "joints": joints,
-            "units": units,
-            "expected": f"a list of all ({', '.join(joints)})",
-            "hints": [
-                "Which joints move the point where the last axes meet, or the position, and which only turn the end effector?",
-                "A cosine alone leaves two angles, and so does a square root: count the branches before you compute.",
-            ],
-            "minutes": 15 + 5 * count,
-        }.items()
+        }
+    return {
+        "title": f"Every way to reach a {'point' if asked.is_for_point(arm) else 'pose'}",
+        "kind": "joint_solutions",
+        "decimals": 3,
+        "joints": joints,
+        "units": units,
+        "expected": f"a list of all ({', '.join(joints)})",
+        "hints": [
+            "Which joints move the point where the last axes meet, or the position, and which only turn the end effector?",
+            "A cosine alone leaves two angles, and so does a square root: count the branches before you compute.",
+        ],
+        "minutes": 15 + 5 * count,
+    }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from functools import partial
+from functools import cache, partial, reduce
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,6 @@ from autograder.judge.misconceptions import (
     degrees_in_table,
     one_factor_missing,
     posture_missing,
-    product,
     reversed_product,
     revolute_everywhere,
     rows_shifted,
@@ -28,8 +27,7 @@ from autograder.judge.misconceptions import (
     with_first_theta1,
 )
 from autograder.reference import Status
-from autograder.reference.transforms import classic_dh
-from dhkit.geometry import rotation_angle_between
+from dhkit.geometry import classic_dh, rotation_angle_between
 
 from .described import Described
 from .tables import list_rows
@@ -90,12 +88,14 @@ def ask_about(exercise: str, arm: Described) -> tuple[Question, ...]:
     return tuple(asked)
 
 
+@cache
 def turning(arm: Described) -> tuple[int, ...]:
     """The places of the joints that turn, from 0."""
     moving = [row for row in arm.table.rows if row.variable.free_symbols & set(arm.table.joints)]
     return tuple(i for i, row in enumerate(moving) if not row.sigma)
 
 
+@cache
 def all_postures(arm: Described) -> list[list[float]] | None:
     """All joint values for the pose that is asked back; None where there is no inverse model, or no end of them."""
     if not arm.posture or not arm.robot.has_inverse:
@@ -106,6 +106,7 @@ def all_postures(arm: Described) -> list[list[float]] | None:
     return found.q.tolist()
 
 
+@cache
 def is_for_point(arm: Described) -> bool:
     """Whether only the position can be asked back: an arm with few joints does not reach it with the same orientation twice."""
     found = arm.robot.inverse(arm.target).q
@@ -171,7 +172,8 @@ def _forward(arm: Described, *q: float, unit: float = 1.0, convention: str = "mo
     if convention == "modified":
         return arm.table.forward(turned)
     at = dict(zip(map(str, arm.table.joints), turned)) | dict(arm.table.values)
-    return np.array(product([classic_dh(*row.parameters) for row in arm.table.rows]).subs(at).evalf().tolist(), float)
+    rows = np.array([row.parameters for row in arm.table.at(at).rows], float)
+    return reduce(np.matmul, classic_dh(*rows.T))
 
 
 def _draw(arm: Described, rng: np.random.Generator) -> list[list[float]]:
