@@ -108,6 +108,12 @@ def _inside(path: str, folder: str) -> bool:
     return path != folder and os.path.commonpath((path, folder)) == folder
 
 
+def place_in_private_folder() -> str | None:
+    """A place that Python needs and that lies in a folder which every kernel has anew, as a checkout in /tmp does; None if none."""
+    places = [path for _, path in _python_places()] + [path for path in [package_folder("dhkit")] if path]
+    return next((path for path in places if any(_inside(path, folder) for folder in PRIVATE)), None)
+
+
 def mounts(limits: Limits, hidden: Iterable[str] = ()) -> list[str]:
     """The bwrap arguments that build the file system of one sandbox.
 

@@ -125,6 +125,11 @@ class WarmParent:
 
     def _live(self) -> None:
         """Start the process, stay for as long as it lives, and see to it that nothing of it is left."""
+        if (place := bubblewrap.place_in_private_folder()) is not None:
+            self.fault = f"{place} lies in a folder that every kernel has anew"
+            self.gone = True
+            self._theirs.close()
+            return
         texts = {f"{_FOLDER}/{name}.py": Path(__file__).with_name(f"{name}.py").read_bytes() for name in _TEXTS}
         number = self._theirs.fileno()
         command = [sys.executable, f"{bubblewrap.HOME}/{_FOLDER}/warm_parent.py", str(number), *_MODULES]

@@ -13,9 +13,14 @@ from autograder.sandbox import bubblewrap, warm
 pytestmark = pytest.mark.sandbox
 
 
+IN_TMP = bubblewrap.place_in_private_folder()
+
+
 @pytest.fixture
 def warmed(sandboxed):
     """run_cells on kernels that are known to be warm."""
+    if IN_TMP:
+        pytest.skip(f"no warm kernels from here: {IN_TMP}")
     sandboxed("1")
     if (reason := sandbox.why_cold()) and os.geteuid() != 0:
         pytest.skip(f"no warm kernels for this user: {reason}")
@@ -186,6 +191,17 @@ def test_a_parent_with_nothing_to_do_ends(no_parents, warmed, monkeypatch):
     assert not [child for child in psutil.Process().children() if child.name() == "bwrap"]
 
 
+def test_a_checkout_in_a_private_folder_is_told(no_parents, monkeypatch):
+    monkeypatch.setattr(bubblewrap, "_python_places", lambda: [("/usr/lib", "/usr/lib"), ("/x", "/tmp/clone/.venv")])
+    parent = warm.WarmParent(())
+    parent.join()
+    assert parent.gone and "/tmp/clone/.venv lies in a folder that every kernel has anew" in parent.fault
+    monkeypatch.setattr(bubblewrap, "_python_places", lambda: [("/usr/lib", "/usr/lib")])
+    monkeypatch.setattr(bubblewrap, "package_folder", lambda name: None)
+    assert bubblewrap.place_in_private_folder() is None
+
+
+@pytest.mark.skipif(IN_TMP is not None, reason="no warm kernels from a checkout in a private folder")
 @pytest.mark.parametrize("fault", ["does not start", "cannot import", "cannot make namespaces"])
 def test_where_there_is_no_parent_kernels_start_cold_and_say_why(no_parents, sandboxed, printed, monkeypatch, fault):
     if fault == "does not start":
