@@ -4,7 +4,7 @@ PYTHON ?= python3
 BIN    := .venv/bin
 PIP    := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 CLASS  := build/class
-ENVIRONMENT := --requirement requirements.txt --constraint constraints.txt --editable course --editable .
+ENVIRONMENT := --requirement requirements.txt --constraint constraints.txt --editable course --editable autograder/solver --editable .
 
 # Processes of a test run start by the hundred: none of them should compile the same modules anew.
 unexport PYTHONDONTWRITEBYTECODE
@@ -64,7 +64,7 @@ setup: .venv/installed bubblewrap
 
 # uv installs in seconds what takes pip minutes; pip does it where uv cannot. rfc3987-syntax, where jsonschema finds it,
 # costs every process that reads a notebook two seconds, for the form of addresses that no notebook holds.
-.venv/installed: requirements.txt constraints.txt course/requirements.txt pyproject.toml course/pyproject.toml
+.venv/installed: requirements.txt constraints.txt course/requirements.txt pyproject.toml course/pyproject.toml autograder/solver/pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed" if sys.version_info < (3, 11) else 0)'
 	$(PYTHON) -m venv .venv
 	$(PIP) "$$(grep -o '^uv==[^ ]*' requirements.txt)" && \

@@ -149,7 +149,7 @@ class Newcomer:
         return self.python("-m", {"autograder": "autograder.cli", "pytest": "pytest"}[program], *words)
 
     def python(self, *words: str) -> str:
-        here = {"PYTHONPATH": os.pathsep.join((str(self.root), str(self.root / "course")))}
+        here = {"PYTHONPATH": os.pathsep.join(str(self.root / each) for each in ("", "course", "autograder/solver"))}
         done = subprocess.run(
             [sys.executable, *words], cwd=self.root, env=os.environ | here, capture_output=True, text=True
         )

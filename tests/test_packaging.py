@@ -1,4 +1,4 @@
-"""Both packages declare what they import; versions agree wherever they are told; licences go with each package."""
+"""All packages declare what they import; versions agree wherever they are told; licences go with each package."""
 
 import ast
 import re
@@ -12,8 +12,13 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 ROOT = Path(__file__).parents[1]
-PROJECTS = {"pyproject.toml": ("autograder", "course/dhkit"), "course/pyproject.toml": ("course/dhkit",)}
-OURS = {"autograder", "dhkit"}
+SOLVER = "autograder/solver"
+PROJECTS = {
+    "pyproject.toml": ("autograder", "course/dhkit"),
+    "course/pyproject.toml": ("course/dhkit",),
+    f"{SOLVER}/pyproject.toml": (f"{SOLVER}/dhm",),
+}
+OURS = {"autograder", "dhkit", "dhm"}
 
 
 def declared(file):
@@ -73,3 +78,4 @@ def test_pre_commit_lints_with_the_version_of_the_environment():
 def test_students_get_a_licence_with_the_kit():
     for name in ("LICENSE", "LICENSE-TEXT.md"):
         assert (ROOT / "course" / name).read_text() == (ROOT / name).read_text()
+    assert (ROOT / SOLVER / "LICENSE").read_text() == (ROOT / "LICENSE").read_text()

@@ -1,19 +1,26 @@
-"""Imports point one way: cli -> grading -> sealing -> questions -> judge -> reference -> dhkit.geometry; grading -> sandbox; cli -> authoring -> questions."""
+"""Imports point one way: cli -> grading -> sealing -> questions -> judge -> reference -> dhm; grading -> sandbox; cli -> authoring -> questions.
+
+The solver `dhm` and the students' kit `dhkit` stand alone; rooms that know both may use the kit's geometry.
+"""
 
 import ast
+import re
 import sys
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).parents[1]
-OURS = ("autograder", "dhkit")
-GEOMETRY = "dhkit.geometry"  # of the kit, the one part that the reference solver may use
+OURS = ("autograder", "dhkit", "dhm")
+FOLDERS = ("autograder", "course/dhkit")
+PARENTS = re.compile(r"^(course|autograder\.solver)\.")  # folders that hold a package and are none
+GEOMETRY = "dhkit.geometry"  # of the kit, the one part that the course's reference may use
 MAY_IMPORT = {
-    "autograder/reference": {GEOMETRY},
+    "autograder/solver/dhm": set(),
+    "autograder/reference": {"dhm", GEOMETRY},
     "autograder/sandbox": set(),
-    "autograder/judge": {"autograder.reference", "dhkit", GEOMETRY},
-    "autograder/questions": {"autograder.judge", "autograder.reference", "dhkit", GEOMETRY},
+    "autograder/judge": {"autograder.reference", "dhm", "dhkit", GEOMETRY},
+    "autograder/questions": {"autograder.judge", "autograder.reference", "dhm", "dhkit", GEOMETRY},
     "autograder/authoring": {"autograder.questions", "dhkit"},
     "autograder/sealing": {"autograder.questions", "autograder.judge", "dhkit"},
     "autograder/grading": {
@@ -34,7 +41,7 @@ def imported(file):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
             start = file.relative_to(ROOT).with_suffix("").parts[: -node.level] if node.level else ()
-            base = ".".join([*start, *filter(None, [node.module])]).removeprefix("course.")
+            base = PARENTS.sub("", ".".join([*start, *filter(None, [node.module])]))
             yield from (base, *(f"{base}.{alias.name}" for alias in node.names))
 
 
@@ -46,11 +53,26 @@ def room(name):
 
 @pytest.mark.parametrize("folder", MAY_IMPORT)
 def test_a_room_imports_only_what_stands_below_it(folder):
-    own = folder.removeprefix("course/").replace("/", ".")
+    own = PARENTS.sub("", folder.replace("/", "."))
     allowed = MAY_IMPORT[folder] | {own, "autograder"}
     for file in sorted((ROOT / folder).rglob("*.py")):
-        ours = {name for name in imported(file) if name.startswith(("autograder", "dhkit"))}
+        ours = {name for name in imported(file) if name.startswith(OURS)}
         assert {room(name) for name in ours} <= allowed, (file, ours)
+
+
+def module_file(name):
+    """The file or folder of a module of ours, None where there is none."""
+    top = {"dhkit": ROOT / "course", "dhm": ROOT / "autograder/solver"}.get(name.split(".")[0], ROOT)
+    found = top.joinpath(*name.split("."))
+    return next((path for path in (found.with_suffix(".py"), found / "__init__.py") if path.exists()), None)
+
+
+@pytest.mark.parametrize("folder", [*FOLDERS, "tests"])
+def test_every_module_of_ours_that_is_imported_exists(folder):
+    for file in sorted((ROOT / folder).rglob("*.py")):
+        for node in ast.walk(ast.parse(file.read_text())):
+            if isinstance(node, ast.ImportFrom) and not node.level and node.module.split(".")[0] in OURS:
+                assert module_file(node.module), f"{file}:{node.lineno}: there is no {node.module}"
 
 
 def private_names_of_other_modules(file):
@@ -72,7 +94,7 @@ def is_private(name):
     return name.startswith("_") and not name.startswith("__")
 
 
-@pytest.mark.parametrize("folder", ["autograder", "course/dhkit"])
+@pytest.mark.parametrize("folder", FOLDERS)
 def test_what_begins_with_an_underscore_stays_in_its_module(folder):
     found = {str(file): list(private_names_of_other_modules(file)) for file in sorted((ROOT / folder).rglob("*.py"))}
     assert not {file: names for file, names in found.items() if names}
@@ -95,3 +117,14 @@ def test_students_kit_needs_few_libraries():
     }
     for file in sorted((ROOT / "course/dhkit").rglob("*.py")):
         assert {name.split(".")[0] for name in imported(file)} <= allowed, file
+
+
+def test_solver_needs_numpy_and_sympy_only():
+    allowed = {"numpy", "sympy", "dhm", *sys.stdlib_module_names}
+    for file in sorted((ROOT / "autograder/solver/dhm").rglob("*.py")):
+        assert {name.split(".")[0] for name in imported(file)} <= allowed, file
+
+
+def test_kit_and_solver_have_the_same_geometry():
+    kit, solver = ROOT / "course/dhkit/geometry.py", ROOT / "autograder/solver/dhm/geometry.py"
+    assert kit.read_text() == solver.read_text(), f"after a change of one, copy it to the other: cp {kit} {solver}"

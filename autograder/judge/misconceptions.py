@@ -20,8 +20,8 @@ from functools import partial
 import numpy as np
 import sympy
 
-from autograder.reference.transforms import classic_dh
 from dhkit.forms.dh_table import DH_COLUMNS
+from dhm.transforms import classic_dh
 
 from .question import Mistake, Step, Wrong, mistake
 from .steps import change_cell, change_rows, substitute

@@ -1,7 +1,10 @@
 """The reference solver: serial and parallel robots in modified DH, forward and inverse kinematics.
 
-Lengths in metres, angles in radians, arrays batch-first: q (..., n), poses (..., 4, 4). What follows is its public
-face; everything in it is tested, whether or not a question asks for it.
+The solver itself is `dhm`, a package of its own (`autograder/solver`); here is the course's face of it, with what belongs
+to the course alone: the documents' robots, their determinants and centres, and the errata (`reference.errata`).
+
+Lengths in metres, angles in radians, arrays batch-first: q (..., n), poses (..., 4, 4). Everything that follows is
+tested, whether or not a question asks for it.
 
 **Tables.** `DHTable` describes a serial robot, `robots` holds those of the documents; a table comes from classic rows, a
 URDF joint list or a URDF file (`table_from_urdf_file`) too, and can be printed (`DHTable.to_markdown`,
@@ -133,18 +136,35 @@ array(2)
 (2, (7,))
 """
 
+from dhm import (
+    Batch,
+    ClassicTable,
+    DHRow,
+    DHTable,
+    Failure,
+    Flag,
+    Nearest,
+    Robot,
+    RoundedInput,
+    Solutions,
+    Status,
+    ThreeRPR,
+    ThreeRRR,
+    UrdfJoint,
+    equations,
+    jacobian,
+    misfits,
+    mobility,
+    orientation,
+    rank,
+    table_from_urdf,
+    table_from_urdf_file,
+    workspace,
+)
+
 from . import catalogue as robots
-from . import equations, orientation, workspace
-from .catalogue import Robot
 from .centres import epfl_centres, rotation_about, scara_centres
-from .choice import misfits
-from .parallel import ThreeRPR, ThreeRRR
-from .singularities import jacobian, mobility, rank, rx90_determinant, scara_determinant, two_link_determinant
-from .solutions import Batch, Nearest, Solutions
-from .status import Failure, Flag, RoundedInput, Status
-from .tables import ClassicTable, DHRow, DHTable
-from .urdf import UrdfJoint, table_from_urdf
-from .urdf_file import table_from_urdf_file
+from .determinants import rx90_determinant, scara_determinant, two_link_determinant
 
 __all__ = [
     "Batch",

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 import sympy as sp
 
-from .transforms import Entry, rot_x, rot_z
+from dhm.transforms import Entry, rot_x, rot_z
 
 
 def rotation_about(turn: sp.Matrix, centre: Sequence[Entry]) -> sp.Matrix:

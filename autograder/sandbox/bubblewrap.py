@@ -97,10 +97,11 @@ def package_folder(name: str) -> str | None:
 
 
 def own_private_folders() -> list[str]:
-    """This package's own folder and, when it is run from a checkout, the whole checkout."""
+    """This package's own folder, that of the solver and, when it is run from a checkout, the whole checkout."""
     package = Path(__file__).resolve().parents[1]
     installed = package.parent.name in ("site-packages", "dist-packages")
-    return [str(package)] if installed else [str(package), str(package.parent)]
+    checkout = [] if installed else [str(package.parent)]
+    return [str(package), *checkout, *map(os.path.realpath, filter(None, [package_folder("dhm")]))]
 
 
 def _inside(path: str, folder: str) -> bool:

@@ -1,8 +1,8 @@
 """Plain geometry of rotations, Denavit-Hartenberg transforms, lines in space and two-link arms.
 
 Numbers only (NumPy), and every function is batched: leading dimensions are written ``...``. Lengths are in metres,
-angles in radians. Nothing here draws, judges or knows of an exercise, so the drawings, the judge and the reference
-solver all build on it. The symbolic forms are in ``autograder.reference.transforms``.
+angles in radians. Nothing here draws, judges or knows of an exercise: the drawings, the judge and the solver `dhm` all
+build on it. The students' kit holds no solver and the solver needs no kit, so each has this file, alike to the letter.
 
 References
 ----------

@@ -9,7 +9,7 @@ from answers import STUDENT, evidence, right, verdict
 
 from autograder.judge import is_forgivable, judge
 from autograder.questions import exercises, find
-from autograder.reference.transforms import modified_dh
+from dhm.transforms import modified_dh
 
 pytestmark = pytest.mark.slow
 

@@ -7,10 +7,10 @@ import pytest
 
 from autograder.questions import find
 from autograder.questions.orientation.model import R, draw_rotation_and_sign, e, wrist_angles
-from autograder.reference.orientation import EULER_SETS, euler_angles, rpy_matrix
 from dhkit.geometry import rotation_angle_between
 from dhkit.public import variant_ranges
 from dhkit.variants import OwnNumbers
+from dhm.orientation import EULER_SETS, euler_angles, rpy_matrix
 
 
 @pytest.mark.parametrize("axes", EULER_SETS)

@@ -9,7 +9,7 @@ import pytest
 from answers import STUDENT, verdict
 
 from autograder.questions import exercises, find
-from autograder.reference.transforms import modified_dh
+from dhm.transforms import modified_dh
 
 SOLUTIONS = Path(__file__).parents[2] / "solutions"
 ALMOST = [

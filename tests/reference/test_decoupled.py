@@ -10,7 +10,7 @@ import sympy as sp
 from scipy.spatial.transform import Rotation
 
 from autograder.reference import DHTable, Robot, Status
-from autograder.reference.decoupled import Decoupled, PointArm
+from dhm.decoupled import Decoupled, PointArm
 
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("error")]
 

@@ -5,7 +5,7 @@ import pytest
 import sympy as sp
 
 from autograder.reference import DHTable, Robot, Status, misfits
-from autograder.reference.general import GeneralArm
+from dhm.general import GeneralArm
 
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("error")]
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from autograder.reference import DHTable, Robot, Status, robots
-from autograder.reference.elbow import ElbowArm
-from autograder.reference.pen import PenArm
+from dhm.elbow import ElbowArm
+from dhm.pen import PenArm
 
 pytestmark = pytest.mark.filterwarnings("error")
 

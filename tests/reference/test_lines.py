@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from autograder.reference.lines import link, link_frame
+from dhm.lines import link, link_frame
 
 UP = (0, 0, 1)
 

@@ -10,8 +10,8 @@ import pytest
 from scipy.optimize import brentq
 
 from autograder.reference import Status
-from autograder.reference.parallel import ThreeRPR, ThreeRRR
 from dhkit.geometry import wrap
+from dhm.parallel import ThreeRPR, ThreeRRR
 
 pytestmark = pytest.mark.filterwarnings("error")
 CONGRUENT = ThreeRPR(base=[(0, 0), (1, 0), (0, 1)], platform=[(0, 0), (1, 0), (0, 1)])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from autograder.reference import mobility, robots
-from autograder.reference.pen import PenArm
+from dhm.pen import PenArm
 
 pytestmark = pytest.mark.filterwarnings("error")
 

@@ -8,7 +8,7 @@ import pytest
 import sympy as sp
 
 from autograder.reference import DHTable, Robot, robots
-from autograder.reference.elbow import WristedArm
+from dhm.elbow import WristedArm
 
 pytestmark = pytest.mark.filterwarnings("error")
 

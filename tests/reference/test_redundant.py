@@ -5,7 +5,7 @@ import pytest
 import sympy as sp
 
 from autograder.reference import DHTable, Robot, Status
-from autograder.reference.redundant import RedundantArm
+from dhm.redundant import RedundantArm
 
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("error")]
 

@@ -7,7 +7,7 @@ import pytest
 import sympy as sp
 
 from autograder.reference import DHRow, DHTable, Robot, RoundedInput, UrdfJoint, robots, table_from_urdf
-from autograder.reference.transforms import exact_angle
+from dhm.transforms import exact_angle
 
 pytestmark = pytest.mark.filterwarnings("error")
 

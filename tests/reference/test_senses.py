@@ -11,8 +11,8 @@ import sympy as sp
 from scipy.spatial.transform import Rotation
 
 from autograder.reference import DHTable, Robot, misfits, robots
-from autograder.reference.elbow import WristedArm
-from autograder.reference.planar_arms import PlanarArm
+from dhm.elbow import WristedArm
+from dhm.planar_arms import PlanarArm
 
 pytestmark = pytest.mark.filterwarnings("error")
 

@@ -4,8 +4,15 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from autograder.reference import jacobian, mobility, rank, robots
-from autograder.reference.singularities import rx90_determinant, scara_determinant, two_link_determinant
+from autograder.reference import (
+    jacobian,
+    mobility,
+    rank,
+    robots,
+    rx90_determinant,
+    scara_determinant,
+    two_link_determinant,
+)
 
 
 @pytest.mark.parametrize("name", robots.names())

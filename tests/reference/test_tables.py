@@ -8,7 +8,7 @@ import pytest
 import sympy as sp
 
 from autograder.reference import DHRow, DHTable, UrdfJoint, robots, table_from_urdf
-from autograder.reference.transforms import (
+from dhm.transforms import (
     classic_dh,
     exact_angle,
     modified_dh,

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from autograder.reference import workspace as ws
-from autograder.reference.equations import type8
-from autograder.reference.tables import DHTable
-from autograder.reference.workspace import RRArm
+from dhm.equations import type8
+from dhm.tables import DHTable
+from dhm.workspace import RRArm
 
 pytestmark = [pytest.mark.filterwarnings("error"), pytest.mark.slow]
 FULL = (-np.pi, np.pi)

@@ -59,12 +59,17 @@ def test_the_grader_itself_cannot_be_read(sandboxed, printed):
     assert inside[5] == ["student"] or "student" in inside[5]
 
 
-def test_autograder_cannot_be_imported_but_dhkit_can(sandboxed, statuses):
-    sources = ["import autograder", "import dhkit", "import numpy, sympy, matplotlib"]
-    assert statuses(sandboxed(*sources, mode="none")) == ["ok", "ok", "ok"]
+def test_autograder_and_solver_cannot_be_imported_but_dhkit_can(sandboxed, statuses):
+    sources = ["import autograder", "import dhm", "import dhkit", "import numpy, sympy, matplotlib"]
+    assert statuses(sandboxed(*sources, mode="none")) == ["ok", "ok", "ok", "ok"]
     run = sandboxed(*sources)
-    assert statuses(run) == ["error", "ok", "ok"]
-    assert run.cells[0].message.startswith("ModuleNotFoundError")
+    assert statuses(run) == ["error", "error", "ok", "ok"]
+    assert all(run.cells[i].message.startswith("ModuleNotFoundError") for i in (0, 1))
+
+
+def test_the_solver_is_private_wherever_it_is_installed(monkeypatch):
+    monkeypatch.setattr(bubblewrap, "package_folder", {"dhm": "/usr/lib/dhm"}.get)
+    assert "/usr/lib/dhm" in bubblewrap.own_private_folders()
 
 
 def test_private_folders_below_visible_ones_are_hidden(tmp_path, monkeypatch):

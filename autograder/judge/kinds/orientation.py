@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from autograder.reference.orientation import euler_matrix
 from dhkit.forms.orientation import Orientation
 from dhkit.geometry import rotation_angle_between
+from dhm.orientation import euler_matrix
 
 from .base import Comparison, Setting
 from .entries import Entries

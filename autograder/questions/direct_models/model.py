@@ -10,7 +10,7 @@ import sympy
 
 from autograder.reference import DHTable, robots
 from autograder.reference.centres import epfl_centres, scara_centres
-from autograder.reference.transforms import modified_dh, rot_z
+from dhm.transforms import modified_dh, rot_z
 
 from ..shared.tables import list_rows
 

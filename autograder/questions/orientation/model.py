@@ -6,13 +6,13 @@ import numpy as np
 import sympy
 
 from autograder.judge import Family
-from autograder.reference.orientation import (
+from dhkit.geometry import rotation, rotation_angle_between
+from dhm.orientation import (
     euler_matrix,
     rpy,
     rpy_matrix,
 )
-from autograder.reference.transforms import rot_x, rot_y, rot_z
-from dhkit.geometry import rotation, rotation_angle_between
+from dhm.transforms import rot_x, rot_y, rot_z
 
 phi, theta, psi, e = sympy.symbols("phi theta psi e")
 R = sympy.Matrix(3, 3, lambda i, j: sympy.Symbol(f"r{i + 1}{j + 1}"))

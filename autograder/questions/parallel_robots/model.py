@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import sympy
 
-from autograder.reference.parallel import ThreeRPR, ThreeRRR
 from dhkit.geometry import rotation_2d, unit_vector
+from dhm.parallel import ThreeRPR, ThreeRRR
 
 x, y, phi, u, v, q1, q2, c, L = sympy.symbols("x y phi u v q1 q2 c L")
 

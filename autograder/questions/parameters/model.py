@@ -7,8 +7,8 @@ import sympy
 
 from autograder.judge import mistake
 from autograder.reference import robots
-from autograder.reference.lines import link, link_frame
 from dhkit.geometry import common_normal, link_axis, rotation
+from dhm.lines import link, link_frame
 
 from ..shared.tables import list_rows
 

@@ -7,7 +7,7 @@ import sympy
 
 from autograder.judge.misconceptions import product, symbol_negated
 from autograder.reference import DHTable, robots
-from autograder.reference.transforms import classic_dh
+from dhm.transforms import classic_dh
 
 from ..shared.residuals import distance_and_turn
 from ..shared.tables import list_rows

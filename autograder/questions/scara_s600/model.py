@@ -11,7 +11,7 @@ from autograder.judge import Family, mistake
 from autograder.judge.misconceptions import product
 from autograder.judge.steps import substitute
 from autograder.reference import robots
-from autograder.reference.transforms import modified_dh
+from dhm.transforms import modified_dh
 
 from ..shared import two_link
 from ..shared.residuals import distance_and_turn

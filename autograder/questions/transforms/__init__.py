@@ -19,7 +19,7 @@ from autograder.judge.misconceptions import (
     transposed_rotation,
 )
 from autograder.judge.steps import replace_entry
-from autograder.reference.transforms import rigid_inverse
+from dhm.transforms import rigid_inverse
 
 from .model import (
     CLASSIC,

@@ -8,8 +8,8 @@ import numpy as np
 import sympy
 
 from autograder.reference import DHTable
-from autograder.reference.transforms import classic_dh, modified_dh, modified_dh_inverse, rot_x, rot_z, trans_x, trans_z
 from dhkit.geometry import rotation_2d
+from dhm.transforms import classic_dh, modified_dh, modified_dh_inverse, rot_x, rot_z, trans_x, trans_z
 
 from ..shared.tables import list_rows
 

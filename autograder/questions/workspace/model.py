@@ -8,11 +8,10 @@ from functools import lru_cache
 import numpy as np
 import sympy
 
-from autograder.reference import robots
-from autograder.reference.equations import type8
-from autograder.reference.singularities import two_link_determinant
-from autograder.reference.workspace import RRArm, planar_points, rr_grid
+from autograder.reference import robots, two_link_determinant
 from dhkit.geometry import lies_between, unit_vector
+from dhm.equations import type8
+from dhm.workspace import RRArm, planar_points, rr_grid
 
 t1, t2, t3, L1, L2 = sympy.symbols("t1 t2 t3 L1 L2")
 t1i, t1j, t2i, t2j = sympy.symbols("t1i t1j t2i t2j")

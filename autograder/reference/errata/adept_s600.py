@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import sympy as sp
 
-from ..transforms import modified_dh
+from dhm.transforms import modified_dh
+
 from .proof import Erratum, against, agree
 
 DOCUMENT = "Adept s600 tutorial"

@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 import sympy as sp
 
+from dhm.equations import type8
+from dhm.singularities import mobility
+from dhm.tables import DHTable
+from dhm.transforms import classic_dh, modified_dh, rot_x, rot_z, trans_x, trans_z
+from dhm.workspace import RRArm, planar_points
+
 from .. import catalogue as robots
-from ..equations import type8
-from ..singularities import mobility
-from ..tables import DHTable
-from ..transforms import classic_dh, modified_dh, rot_x, rot_z, trans_x, trans_z
-from ..workspace import RRArm, planar_points
 from .proof import Erratum, against, agree, assembled
 
 DOCUMENT = "DH-m slides (Romanian)"

@@ -6,11 +6,11 @@ import numpy as np
 import sympy as sp
 
 from dhkit.geometry import rotation
+from dhm.orientation import euler_matrix, rpy_matrix
+from dhm.parallel import ThreeRPR, ThreeRRR
+from dhm.transforms import modified_dh
 
 from .. import catalogue as robots
-from ..orientation import euler_matrix, rpy_matrix
-from ..parallel import ThreeRPR, ThreeRRR
-from ..transforms import modified_dh
 from .proof import Erratum, against, agree, assembled
 
 DOCUMENT = "EPFL slides"

@@ -9,11 +9,11 @@ import numpy as np
 import sympy as sp
 
 from dhkit.geometry import rotation_angle_between
+from dhm.orientation import euler_matrix
+from dhm.transforms import classic_dh, modified_dh, modified_dh_inverse, rot_x, rot_z, trans_x, trans_z
+from dhm.urdf import UrdfJoint, table_from_urdf
 
 from .. import catalogue as robots
-from ..orientation import euler_matrix
-from ..transforms import classic_dh, modified_dh, modified_dh_inverse, rot_x, rot_z, trans_x, trans_z
-from ..urdf import UrdfJoint, table_from_urdf
 from .proof import Check, Erratum, Reading, against, agree, assembled
 
 DOCUMENT = "MECA 953 slides"

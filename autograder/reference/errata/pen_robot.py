@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import sympy as sp
 
+from dhm.transforms import modified_dh
+
 from .. import catalogue as robots
-from ..transforms import modified_dh
 from .proof import Check, Erratum, Reading, against, agree
 
 DOCUMENT = "pen robot sheet"

@@ -12,7 +12,7 @@ from sympy import cos, sin, symbols
 from dhkit.drawing import parallel
 from dhkit.pictures import parallel_robots as pictures
 
-solver = pytest.importorskip("autograder.reference.parallel", reason="only the students' kit is installed")
+solver = pytest.importorskip("dhm.parallel", reason="only the students' kit is installed")
 ThreeRPR, ThreeRRR = solver.ThreeRPR, solver.ThreeRRR
 
 BASE = np.array([(0, 0), (1.0, 0), (0.3, 0.6)])

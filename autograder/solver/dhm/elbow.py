@@ -16,10 +16,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dhkit.geometry import phasor, two_link
-
 from .forward import Chain
 from .gauge import demand_kinds, demand_length, demand_parallel, demand_square
+from .geometry import phasor, two_link
 from .inverse import Branches, InverseModel, JointMap, translations
 from .shoulder import Shoulder, shoulder
 from .status import Failure, Flag, two_link_flags

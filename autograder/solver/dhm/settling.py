@@ -11,9 +11,8 @@ from functools import cached_property
 
 import numpy as np
 
-from dhkit.geometry import cross, wrap
-
 from .forward import Chain
+from .geometry import cross, wrap
 from .inverse import Branches
 from .singularities import chain_jacobian
 from .status import Failure, Flag

@@ -23,8 +23,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dhkit.geometry import rotation, wrap
-
+from .geometry import rotation, wrap
 from .status import Status
 
 EULER_SETS = tuple("".join(s) for s in product("xyz", repeat=3) if s[0] != s[1] != s[2])

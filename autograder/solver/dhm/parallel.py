@@ -20,9 +20,8 @@ from itertools import product
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dhkit.geometry import rotation_2d, wrap
-
 from .equations import Roots, type8
+from .geometry import rotation_2d, wrap
 from .status import Status
 
 # In lengths scaled to 1. An error e of a merged mode shows as e^2 in the leg lengths: hence

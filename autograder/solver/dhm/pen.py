@@ -12,9 +12,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from dhkit.geometry import wrap
-
 from .elbow import ArmGeometry, demand_elbow
+from .geometry import wrap
 from .inverse import Branches, InverseModel, JointMap, translations
 from .status import Failure, Flag
 from .tables import DHTable

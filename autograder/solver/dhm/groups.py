@@ -14,10 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dhkit.geometry import perpendicular, phasor, two_link, wrap
-
 from . import circle
 from .elimination import Near, PointProblem, Triples, plane_vectors
+from .geometry import perpendicular, phasor, two_link, wrap
 from .loop import Loop, motion
 from .status import Flag
 

@@ -15,8 +15,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from dhkit.geometry import PARALLEL, TOUCHING, common_normal, link_axis, rotation
-
+from .geometry import PARALLEL, TOUCHING, common_normal, link_axis, rotation
 from .status import RoundedInput
 from .tables import DHTable
 from .transforms import ROUNDED, nearest_quarter

@@ -2,7 +2,7 @@
 
 A robot's `InverseModel.closed_form` takes poses and returns arrays of branches, vectorised over the poses; one pose is
 a batch of one. The closed forms are in `planar_arms` (planar arms, SCARA), `elbow` (elbow arms, spherical wrist) and
-`pen`, and share the two-link arm of `dhkit.geometry`; `decoupled` has every other arm with a group of three joints.
+`pen`, and share the two-link arm of `geometry`; `decoupled` has every other arm with a group of three joints.
 """
 
 from __future__ import annotations
@@ -15,11 +15,10 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dhkit.geometry import wrap
-
 from .families import Rows, free_joints, grid_of, member, search
 from .forward import Chain
 from .gauge import canonical
+from .geometry import wrap
 from .limits import SLACK, clipped, every_turn, nearest_turn, outside, slack, slide_lines
 from .rigid import rigid
 from .solutions import Batch, Nearest, Solutions

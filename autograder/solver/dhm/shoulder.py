@@ -11,8 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dhkit.geometry import COINCIDENT, SAME_LENGTH, phasor
-
+from .geometry import COINCIDENT, SAME_LENGTH, phasor
 from .status import Flag
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from dhkit.geometry import Line, common_normal, link_axis, rigid_transform, unit_line
+from .geometry import Line, common_normal, link_axis, rigid_transform, unit_line
 
 
 def link(first: Line, second: Line) -> tuple[float, float]:

@@ -9,9 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dhkit.geometry import modified_dh_of_cosines
-
 from .forward import Chain
+from .geometry import modified_dh_of_cosines
 
 
 @dataclass(frozen=True)

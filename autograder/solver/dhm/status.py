@@ -6,7 +6,7 @@ from enum import IntEnum, IntFlag, StrEnum
 
 import numpy as np
 
-from dhkit.geometry import TwoLink
+from .geometry import TwoLink
 
 
 class RoundedInput(UserWarning):

@@ -18,7 +18,7 @@ from typing import Any, Protocol, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dhkit.geometry import lies_between, two_link
+from .geometry import lies_between, two_link
 
 
 class HasForward(Protocol):

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dhkit.geometry import wrap
-
 from . import six_turns
+from .geometry import wrap
 from .inverse import Branches
 from .loop import Loop, in_unit, motion
 from .loop_arms import Candidates, LoopArm

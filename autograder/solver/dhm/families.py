@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dhkit.geometry import wrap
-
+from .geometry import wrap
 from .limits import SLACK, bounds, outside, slide_lines
 from .status import Flag
 

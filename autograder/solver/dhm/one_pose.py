@@ -11,9 +11,8 @@ from math import atan2, hypot, pi, remainder, sin, sqrt
 
 import numpy as np
 
-from dhkit.geometry import COINCIDENT, SAME_LENGTH
-
 from .elbow import WristedArm
+from .geometry import COINCIDENT, SAME_LENGTH
 
 _ALIGNED = 1e-9
 _RIGID = 1e-9  # a pose that is less rigid is looked at by `rigid.rigid`

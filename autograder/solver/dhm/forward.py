@@ -16,8 +16,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import ArrayLike
 
-from dhkit.geometry import modified_dh_of_cosines
-
+from .geometry import modified_dh_of_cosines
 from .transforms import rot_x, trans_x
 
 if TYPE_CHECKING:

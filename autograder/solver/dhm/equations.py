@@ -37,8 +37,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dhkit.geometry import two_link, wrap
-
+from .geometry import two_link, wrap
 from .status import Status
 
 

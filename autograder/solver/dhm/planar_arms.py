@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from dhkit.geometry import SAME_LENGTH, phasor, rotation, two_link, wrap
-
 from .gauge import demand_kinds, demand_length, demand_parallel
+from .geometry import SAME_LENGTH, phasor, rotation, two_link, wrap
 from .inverse import Branches, InverseModel, JointMap, translations
 from .status import Failure, Flag, two_link_flags
 from .tables import DHTable
