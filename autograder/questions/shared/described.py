@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import operator
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import msgspec
@@ -83,25 +84,30 @@ def describe(text: str) -> Described:
         Naming the field, the row or the letter that does not fit.
     """
     try:
-        found = convert(tomllib.loads(text), _File)
+        return robot_of(FILE, tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:
         raise ValueError(f"{FILE}: {error}") from None
+
+
+def robot_of(where: str, fields: Mapping[str, object]) -> Described:
+    """A robot from its fields, see `describe`; `where` they stand is named in errors."""
+    found = convert(fields, _File)
     names = [*found.joints, *found.lengths]
     if twice := sorted({name for name in names if names.count(name) > 1}):
-        raise ValueError(f"{FILE}: {', '.join(twice)} is named twice")
+        raise ValueError(f"{where}: {', '.join(twice)} is named twice")
     for name in names:
         if not name.isidentifier() or name == "pi":
-            raise ValueError(f"{FILE}: {name!r} cannot be a letter; it needs letters, digits and underscores")
+            raise ValueError(f"{where}: {name!r} cannot be a letter; it needs letters, digits and underscores")
     symbols = {name: sympy.Symbol(name) for name in names}
     rows = []
     for number, row in enumerate(found.rows, 1):
         try:
             rows.append([row[0], *(_expression(entry, symbols) for entry in row[1:])])
         except ValueError as error:
-            raise ValueError(f"{FILE}: row {number}: {error}") from None
+            raise ValueError(f"{where}: row {number}: {error}") from None
     if found.posture and len(found.posture) != len(found.joints):
         raise ValueError(
-            f"{FILE}: posture: expected {len(found.joints)} values, one for each joint, found {len(found.posture)}"
+            f"{where}: posture: expected {len(found.joints)} values, one for each joint, found {len(found.posture)}"
         )
     joints = [symbols[name] for name in found.joints]
     return Described(

@@ -1,0 +1,93 @@
+"""The pool of arms from which a student's id picks one: references for a question, and what its statement shows.
+
+A question about "your arm" has an entry ``arm`` in its exercise's ``[variant]``, a list of names of the pool, and takes
+its reference from ``arm_of(mine)``. Students see the axes of the arm in space, never its table: these stand in the kit's
+``arms.json``, which ``python -m autograder.questions.shared.pool`` writes.
+"""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import sympy
+
+import dhkit
+from autograder.reference import DHTable
+from dhkit.variants import OwnNumbers
+
+from .described import Described, robot_of
+
+FILE = "arms.toml"
+KIT_FILE = Path(dhkit.__file__).with_name("arms.json")
+
+
+@cache
+def arms() -> dict[str, Described]:
+    """Every arm of the pool by its name."""
+    groups = tomllib.loads(resources.files(__package__).joinpath(FILE).read_text(encoding="utf-8"))
+    return {
+        name: robot_of(f"{FILE}: {name}", {**shared, **entry})
+        for group in groups.values()
+        for shared in [{key: value for key, value in group.items() if key in ("joints", "lengths")}]
+        for name, entry in group.items()
+        if name not in shared
+    }
+
+
+def arm_of(mine: OwnNumbers) -> Described:
+    """The student's own arm."""
+    return arms()[mine.arm]
+
+
+def axes_in_space(table: DHTable) -> dict[str, Any]:
+    """Where the axes of a robot and its end effector are, seen from the base, with every turning joint at zero.
+
+    Points and directions are lists of three entries; an entry of a point maps letters (and "" for a plain number) to
+    their factors. Sliding joints keep their letter.
+    """
+    letters = [row.variable.free_symbols & set(table.joints) for row in table.rows]
+    at_zero = dict.fromkeys(set().union(*(own for own, row in zip(letters, table.rows) if not row.sigma)), 0)
+    frame, joints = sympy.eye(4), []
+    for row, own, transform in zip(table.rows, letters, table.transforms()):
+        frame = (frame * transform.subs(at_zero)).applyfunc(sympy.expand)
+        joints += [{"name": str(letter), "slides": bool(row.sigma), **_line(frame)} for letter in own]
+    return {"joints": joints, "end": {**_line(frame), "x": _direction(frame[:3, 0])}}
+
+
+def _line(frame: sympy.Matrix) -> dict[str, Any]:
+    return {"point": [_factors(entry) for entry in frame[:3, 3]], "direction": _direction(frame[:3, 2])}
+
+
+def _direction(column: sympy.Matrix) -> list[float]:
+    return [int(entry) if entry.is_integer else float(entry) for entry in column]
+
+
+def _factors(entry: sympy.Expr) -> dict[str, float]:
+    """A sum of letters with their factors."""
+    found = {}
+    for letter, factor in sympy.expand(entry).as_coefficients_dict().items():
+        if factor:
+            found["" if letter == 1 else str(letter)] = int(factor) if factor.is_integer else float(factor)
+    return found
+
+
+def for_the_kit() -> str:
+    """What the kit's file says: of each arm its title, axes, and lengths to draw it with."""
+    lines = (
+        f"{json.dumps(name)}: " + json.dumps({"title": arm.title, **axes_in_space(arm.table), "lengths": _lengths(arm)})
+        for name, arm in arms().items()
+    )
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def _lengths(arm: Described) -> dict[str, float]:
+    return {name: float(value) for name, value in arm.table.values.items()}
+
+
+if __name__ == "__main__":
+    KIT_FILE.write_text(for_the_kit(), encoding="utf-8")

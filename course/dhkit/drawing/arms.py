@@ -1,0 +1,153 @@
+"""An arm from its axes in space, as a body: what a statement shows before there is a table."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+from ..arms import EXTENDED, Arm, said_sum
+from .bodies import HAND, JOINT, LINK, Bodies
+from .frames import ask_for_frames, merge_axes
+from .labels import Labels
+from .strokes_3d import draw_arrow_3d
+from .style import AXIS_COLOURS, AXIS_DASHES, CENTRE_LINE, INK, SOFT, styled
+from .view import fit_3d, new_axes_3d, view_axes
+
+
+@styled
+def draw_arm(arm: Arm, *, elev=22.0, azim=-60.0):
+    """Draw an arm with its joint axes, its lengths, frame 0 and the frame of the end effector.
+
+    Turning joints stand at zero, sliding ones are drawn out a little.
+
+    Parameters
+    ----------
+    arm : Arm
+    elev, azim : float, in degrees
+        From where it is seen.
+
+    Returns
+    -------
+    matplotlib Axes (3D)
+    """
+    out = {joint.name: EXTENDED for joint in arm.joints if joint.slides}
+    ways = _ways(arm, out)
+    unit = sum(np.linalg.norm(end - start) for start, end, _ in ways) or 1.0
+    ax = new_axes_3d(elev, azim)
+    bodies, labels, size = Bodies(ax, unit), Labels(), 0.13 * unit
+    radius = 0.022 * unit
+    bodies.add_tube(np.array([0, 0, -0.8 * radius]), np.zeros(3), 4 * radius, LINK, caps=True)
+    for start, end, _ in ways:
+        bodies.add_tube(start, end, radius, LINK)
+        bodies.add_ball(end, radius, LINK)
+    centres = _centres(arm, out, 2 * radius)
+    for joint, centre in zip(arm.joints, centres):
+        along = np.array(joint.direction, float)
+        if joint.slides:
+            bodies.add_box(centre, _axes_about(along), (1.6 * radius, 1.6 * radius, 2.2 * radius), JOINT)
+        else:
+            bodies.add_tube(centre - 2 * radius * along, centre + 2 * radius * along, 1.8 * radius, JOINT, caps=True)
+    end = arm.at(arm.origin, out)
+    bodies.add_ball(end, 1.3 * radius, HAND)
+    bodies.draw(ax)
+    extent = [bodies.points()]
+    extent += _draw_axes(ax, labels, arm, centres, size)
+    frames = np.array([np.eye(4), _end_frame(arm, end)])
+    named = [axis for axis in merge_axes(frames, [0, len(arm.joints)], "xyz") if axis.label not in _named(arm)]
+    extent += ask_for_frames(ax, labels, named, size, width=1.8)
+    _name_lengths(ax, labels, ways, radius)
+    fit_3d(ax, np.vstack(extent), True, pad=0.42)
+    labels.place(ax)
+    return ax
+
+
+def _ways(arm: Arm, out) -> list[tuple[np.ndarray, np.ndarray, str]]:
+    """The straight pieces of the links, with the length that each has in letters: to the next axis, then along it."""
+    stops = [(joint.point, np.array(joint.direction, float)) for joint in arm.joints]
+    stops.append((arm.origin, np.array(arm.z, float)))
+    ways, before = [], ({}, {}, {})
+    for point, along in stops:
+        # What the two points differ by, in letters, part by part: across the axis first.
+        change = [_difference(after, earlier) for after, earlier in zip(point, before)]
+        across = [{} if abs(direction) == 1 else entry for entry, direction in zip(change, along)]
+        corner = tuple(_sum(earlier, step) for earlier, step in zip(before, across))
+        for start, end in pairwise((before, corner, point)):
+            steps = [_difference(after, earlier) for after, earlier in zip(end, start)]
+            moved = [entry for entry in steps if entry]
+            here, there = arm.at(start, out), arm.at(end, out)
+            if np.linalg.norm(there - here) > 1e-9:
+                ways.append((here, there, said_sum(_positive(moved[0])) if len(moved) == 1 else ""))
+        before = point
+    return ways
+
+
+def _difference(one, other) -> dict[str, float]:
+    return _sum(one, {letter: -factor for letter, factor in other.items()})
+
+
+def _sum(one, other) -> dict[str, float]:
+    both = {letter: one.get(letter, 0) + other.get(letter, 0) for letter in (*one, *other)}
+    return {letter: factor for letter, factor in both.items() if abs(factor) > 1e-12}
+
+
+def _positive(entry) -> dict[str, float]:
+    return {letter: abs(factor) for letter, factor in entry.items()} if len(entry) == 1 else dict(entry)
+
+
+def _centres(arm: Arm, out, half) -> list[np.ndarray]:
+    """Where the bodies of the joints stand: those that lie on one another are parted along their own axes."""
+    centres: list[np.ndarray] = []
+    for joint in arm.joints:
+        # A guide stands where the sliding begins.
+        centre = arm.at(joint.point, out | {joint.name: 0.0} if joint.slides else out)
+        if any(np.linalg.norm(centre - other) < 1.6 * half for other in centres):
+            centre = centre + 2.4 * half * np.array(joint.direction, float)
+        centres.append(centre)
+    return centres
+
+
+def _axes_about(along: np.ndarray) -> np.ndarray:
+    side = np.eye(3)[int(np.argmin(np.abs(along)))]
+    side = side - (side @ along) * along
+    side = side / np.linalg.norm(side)
+    return np.column_stack([side, np.cross(along, side), along])
+
+
+def _end_frame(arm: Arm, origin: np.ndarray) -> np.ndarray:
+    x, z = np.array(arm.x, float), np.array(arm.z, float)
+    frame = np.eye(4)
+    frame[:3] = np.column_stack([x, np.cross(z, x), z, origin])
+    return frame
+
+
+def _draw_axes(ax, labels, arm: Arm, centres, size) -> list[np.ndarray]:
+    """Centre lines of the joints, with an arrow for the sense and the name of the joint."""
+    ends, tips = [], []
+    for number, (joint, centre) in enumerate(zip(arm.joints, centres), 1):
+        along = np.array(joint.direction, float)
+        reach = 1.35 * size
+        while any(np.linalg.norm(centre + reach * along - tip) < 0.5 * size for tip in tips):
+            reach += 0.8 * size  # joints on one line: each has an arrowhead of its own
+        low, high = centre - 1.1 * size * along, centre + reach * along
+        ax.plot(*zip(low, high), color=SOFT, lw=1, ls=CENTRE_LINE, zorder=2)
+        draw_arrow_3d(ax, high - 0.5 * size * along, high, AXIS_COLOURS["z"], AXIS_DASHES["z"], width=1.5)
+        stem = joint.name.rstrip("0123456789")
+        labels.ask(high, f"$Z_{{{number}}}\\ ({stem}_{{{joint.name[len(stem) :]}}})$", along, AXIS_COLOURS["z"])
+        tips.append(high)
+        ends += [low[None], high[None]]
+    return ends
+
+
+def _named(arm: Arm) -> set[str]:
+    """The axis of the end effector that the last joint's arrow names already."""
+    return {f"$Z_{{{len(arm.joints)}}}$"} if tuple(arm.z) == tuple(arm.joints[-1].direction) else set()
+
+
+def _name_lengths(ax, labels, ways, radius) -> None:
+    for start, end, text in ways:
+        labels.avoid(start + np.outer(np.linspace(0, 1, 9), end - start))
+        if text:
+            side = np.cross(end - start, view_axes(ax)[2])
+            side = side if np.linalg.norm(side) > 1e-9 else None
+            labels.ask((start + end) / 2, f"${text}$", side, INK, gap=9)
