@@ -7,15 +7,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .markdown import Markdown, table
 from .status import Failure, Flag, Status
 
 if TYPE_CHECKING:
     from .inverse import InverseModel
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Solutions:
     """All postures that bring the robot to one pose, in the robot's fixed branch order.
+
+    Notebooks show them as a table; `to_markdown` has it in degrees and millimetres.
 
     Attributes
     ----------
@@ -35,6 +38,8 @@ class Solutions:
     excess : float
         Metres (radians when the reason speaks of an angle) by which the pose misses the condition that the reason
         names, else 0. It is no distance to the nearest pose that can be reached.
+    slides : tuple of int
+        Indices of the joints that slide, whose values are lengths.
     """
 
     q: np.ndarray
@@ -44,9 +49,34 @@ class Solutions:
     free: str
     free_by_row: tuple[str, ...]
     excess: float
+    slides: tuple[int, ...] = ()
 
     def __len__(self) -> int:
         return len(self.q)
+
+    def __repr__(self) -> str:
+        numbers = [[f"{value:8.4f}" for value in row] for row in self.q + 0.0]
+        lines = [f"  {' '.join(row)}  {label}" for row, label in zip(numbers, self._labels_with_free())]
+        return "\n".join([f"{self.status}: {self.reason}", *lines])
+
+    def to_markdown(self, degrees: bool = False, millimetres: bool = False) -> Markdown:
+        """The postures as a table that notebooks show typeset, in radians and metres unless told otherwise."""
+        angle = (np.degrees(1.0), "°", 2) if degrees else (1.0, "rad", 4)
+        length = (1000.0, "mm", 2) if millimetres else (1.0, "m", 4)
+        units = [length if i in self.slides else angle for i in range(self.q.shape[1])]
+        heads = [f"$q_{{{i}}}$ ({unit})" for i, (_, unit, _) in enumerate(units, start=1)]
+        rows = [
+            [*(f"{value * factor:.{digits}f}" for value, (factor, _, digits) in zip(row, units)), label]
+            for row, label in zip(self.q, self._labels_with_free())
+        ]
+        text = f"**{self.status}**: {self.reason}"
+        return Markdown(f"{text}\n\n{table([*heads, 'posture'], rows)}" if rows else text)
+
+    def _labels_with_free(self) -> list[str]:
+        return [f"{label}; {free}" if free else label for label, free in zip(self.labels, self.free_by_row)]
+
+    def _repr_markdown_(self) -> str:
+        return self.to_markdown()
 
 
 @dataclass(frozen=True)
@@ -131,7 +161,8 @@ class Batch:
                 reason = "on the limit of the workspace, where branches merge: " + labels[0]
             case Status.SOLVED:
                 reason = "1 posture" if len(rows) == 1 else f"{len(rows)} postures"
-        return Solutions(self.q[index, rows] + 0.0, labels, status, reason, free, free_by_row, excess)
+        slides = tuple(sorted(set(range(self.q.shape[2])) - set(self.model.revolute)))
+        return Solutions(self.q[index, rows] + 0.0, labels, status, reason, free, free_by_row, excess, slides)
 
 
 def _status(valid: np.ndarray, flags: np.ndarray) -> np.ndarray:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from numbers import Real
 from typing import Any
 
@@ -19,6 +19,8 @@ import sympy as sp
 from numpy.typing import ArrayLike
 
 from . import forward as _forward
+from .markdown import DEGREES, MILLIMETRES, Markdown, in_unit, latex
+from .markdown import table as markdown_table
 from .transforms import (
     exact_angle,
     modified_dh,
@@ -191,6 +193,19 @@ class DHTable:
         """Forward kinematics as a 4x4 SymPy matrix in textbook form (parallel axes merged)."""
         return self.base * self.recursion()[0]
 
+    def symbolic_jacobian(self) -> sp.Matrix:
+        """Geometric Jacobian of the tool point in the base's axes, 6 x n, in letters.
+
+        Rows 0 to 2 are the velocity of the tool point, rows 3 to 5 the angular velocity, per unit of each joint's speed;
+        metres and radians. `singularities.jacobian` is the same in numbers.
+        """
+        place = self.symbolic_forward()[:3, 3]
+        axes = [
+            sp.zeros(3, 1) if row.sigma else (self.base * _forward.recursion(self.rows[:i], sp.eye(4))[0])[:3, 2]
+            for i, row in enumerate(self.rows, start=1)
+        ]
+        return place.jacobian(self.joints).col_join(sp.Matrix.hstack(*axes) * self._coupling[0])
+
     def forward(self, q: ArrayLike) -> np.ndarray:
         """Forward kinematics: q of shape (..., n), radians or metres -> poses (..., 4, 4)."""
         return self.chain.forward(q)
@@ -269,20 +284,24 @@ class DHTable:
         a, alpha = shifted[-1]
         return cls(modified, tool=trans_x(a) * rot_x(alpha) * _transform(tool, "tool"), **options)
 
-    def to_markdown(self) -> str:
-        """The table in the slides' layout (i, sigma_i, a_{i-1}, alpha_{i-1}, d_i, theta_i)."""
-        heads = ["$i$"] + [f"${head}$" for head in _HEADS]
-        lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
-        for i, row in enumerate(self.rows, start=1):
-            cells = [str(i), str(row.sigma)] + [f"${_latex(e)}$" for e in row.parameters]
-            lines.append("| " + " | ".join(cells) + " |")
-        return "\n".join(lines)
+    def to_markdown(self, degrees: bool = False, millimetres: bool = False) -> Markdown:
+        """The table in the slides' layout (i, sigma_i, a_{i-1}, alpha_{i-1}, d_i, theta_i), which notebooks show typeset.
+
+        With ``degrees`` or ``millimetres`` its numbers stand in these units; letters stay as they are.
+        """
+        angle = partial(in_unit, unit=DEGREES) if degrees else latex
+        length = partial(in_unit, unit=MILLIMETRES) if millimetres else latex
+        rows = [
+            [i, row.sigma, *(f"${shown(e)}$" for shown, e in zip((length, angle, length, angle), row.parameters))]
+            for i, row in enumerate(self.rows, start=1)
+        ]
+        return Markdown(markdown_table(["$i$", *(f"${head}$" for head in _HEADS)], rows))
 
     def to_latex(self) -> str:
         """The table as a LaTeX array in the slides' layout."""
         lines = [" & ".join(["i", *_HEADS]) + r" \\ \hline"]
         for i, row in enumerate(self.rows, start=1):
-            cells = [str(i), str(row.sigma), *map(_latex, row.parameters)]
+            cells = [str(i), str(row.sigma), *map(latex, row.parameters)]
             lines.append(" & ".join(cells) + r" \\")
         return "\\begin{array}{c|c|cccc}\n" + "\n".join(lines) + "\n\\end{array}"
 
@@ -402,12 +421,3 @@ def _checked_limits(
 
 def _numbers(entries: Iterable[sp.Expr]) -> np.ndarray:
     return np.array([float(entry) for entry in entries])
-
-
-def _latex(expression: sp.Expr) -> str:
-    names = {
-        s: s.name.replace("t", r"\theta_", 1)
-        for s in expression.free_symbols
-        if s.name[0] == "t" and s.name[1:].isdigit()
-    }
-    return sp.latex(expression, symbol_names=names)

@@ -71,9 +71,34 @@ def table_from_urdf(
     Raises ValueError when no joint moves, or an axis is the zero vector.
     """
     points, axes, sigmas, end = _axes_at_zero(_with_right_angles(joints))
-    if not axes:
+    return table_from_axes(points, straightened(axes), sigmas, end, name, limits)
+
+
+def table_from_axes(
+    points: Sequence[np.ndarray],
+    axes: Sequence[np.ndarray],
+    sigmas: Sequence[int],
+    end: np.ndarray,
+    name: str = "",
+    limits: Sequence[tuple[float, float]] | None = None,
+) -> DHTable:
+    """DHm table of a serial chain from its joint axes as they lie at q = 0; what is free is chosen as in `table_from_urdf`.
+
+    Parameters
+    ----------
+    points, axes : sequences of n arrays (3,)
+        A point on each axis, metres, and its direction, of length 1; in the base's frame.
+    sigmas : sequence of n int
+        0 revolute, 1 prismatic.
+    end : (4, 4) array
+        The tool's pose at q = 0.
+    name, limits
+        As for `DHTable`.
+
+    Raises ValueError when no joint moves.
+    """
+    if not len(axes):
         raise ValueError("the chain has no moving joint")
-    axes = _straightened(axes)
     base = _base_frame(points[0], axes[0])
     z, x, origin = base[:3, 2], base[:3, 0], base[:3, 3]
     rows = []
@@ -118,9 +143,9 @@ def _with_right_angles(joints: Sequence[UrdfJoint]) -> list[UrdfJoint]:
     return read
 
 
-def _straightened(axes: Sequence[np.ndarray]) -> list[np.ndarray]:
-    """Unit vectors, each made parallel or square to the one before where it is nearly so."""
-    straight = [axes[0]]
+def straightened(axes: Sequence[np.ndarray]) -> list[np.ndarray]:
+    """Unit vectors, each made parallel or square to the one before where it is nearly so, with a `RoundedInput` warning."""
+    straight = list(axes[:1])
     for i, axis in enumerate(axes[1:], start=1):
         before = straight[-1]
         along, across = before @ axis, np.linalg.norm(np.cross(before, axis))

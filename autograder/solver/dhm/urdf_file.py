@@ -1,4 +1,4 @@
-"""Robots from URDF files: the chain from one link to another, its origins, axes and joint limits."""
+"""Robots from and to URDF files: the chain from one link to another, its origins, axes and joint limits."""
 
 from __future__ import annotations
 
@@ -8,11 +8,15 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+from .inverse import JointMap
 from .tables import DHTable
 from .urdf import UrdfJoint, table_from_urdf
 
 _MOST_BYTES = 10_000_000
 _MOVING = ("revolute", "continuous", "prismatic")
+ENDLESS = (-2000 * np.pi, 2000 * np.pi)
+"""The limits of a joint that turns without end where the other joints have limits, radians."""
+_LONGEST = 1000.0  # metres that a slide without limits may go, as a URDF must name some
 
 
 def table_from_urdf_file(path: str | Path, base: str | None = None, tip: str | None = None) -> DHTable:
@@ -57,6 +61,52 @@ def table_from_urdf_file(path: str | Path, base: str | None = None, tip: str | N
     known = [pair for pair in limits if pair is not None]
     name = root.get("name") or path.stem
     return table_from_urdf(read, name, known if len(known) == len(limits) else None)
+
+
+def urdf_of(table: DHTable) -> str:
+    """A URDF file with the joints of a table and their limits, without shapes and masses.
+
+    Links are called base, link_1, ... and tool, joints as in the table. A joint that turns without limits is
+    continuous; a slide without limits gets 1 km to either side. Poses are those of the table, metres and radians.
+
+    Raises ValueError where the table holds letters without value, or a joint moves several rows.
+    """
+    chain = table.chain
+    joints = JointMap.of(chain)
+    robot = ElementTree.Element("robot", name=table.name or "robot")
+    ElementTree.SubElement(robot, "link", name="base")
+    parent, before = "base", chain.base
+    for i, joint in enumerate(table.joints):
+        kind = "prismatic" if chain.prismatic[i] else "continuous" if table.limits is None else "revolute"
+        child = f"link_{i + 1}"
+        element = _element(robot, str(joint), kind, parent, child, before @ chain.row_matrix(i, chain.offset[i]))
+        ElementTree.SubElement(element, "axis", xyz=f"0 0 {int(joints.sign[i])}")
+        if kind != "continuous":
+            low, high = (-_LONGEST, _LONGEST) if table.limits is None else table.limits[i]
+            ends = {"lower": repr(float(low)), "upper": repr(float(high))}
+            ElementTree.SubElement(element, "limit", {**ends, "effort": "0", "velocity": "0"})
+        parent, before = child, np.eye(4)
+    _element(robot, "flange_tool", "fixed", parent, "tool", chain.tail(chain.joints - 1))
+    ElementTree.indent(robot)
+    return ElementTree.tostring(robot, encoding="unicode") + "\n"
+
+
+def _element(
+    robot: ElementTree.Element, name: str, kind: str, parent: str, child: str, origin: np.ndarray
+) -> ElementTree.Element:
+    """A joint and its child link, added to a robot."""
+    ElementTree.SubElement(robot, "link", name=child)
+    element = ElementTree.SubElement(robot, "joint", name=name, type=kind)
+    ElementTree.SubElement(element, "parent", link=parent)
+    ElementTree.SubElement(element, "child", link=child)
+    R = origin[:3, :3]
+    yaw = np.arctan2(R[1, 0], R[0, 0])
+    # Roll follows from yaw whatever that is, so that no error is left where the two turn about one line.
+    roll = np.arctan2(np.sin(yaw) * R[0, 2] - np.cos(yaw) * R[1, 2], np.cos(yaw) * R[1, 1] - np.sin(yaw) * R[0, 1])
+    pitch = np.arctan2(-R[2, 0], np.hypot(R[0, 0], R[1, 0]))
+    texts = [" ".join(repr(float(number) + 0.0) for number in three) for three in (origin[:3, 3], (roll, pitch, yaw))]
+    ElementTree.SubElement(element, "origin", xyz=texts[0], rpy=texts[1])
+    return element
 
 
 def _chain(joints: Mapping[str, ElementTree.Element], base: str, tip: str) -> list[ElementTree.Element]:
@@ -127,7 +177,7 @@ def _three(
 
 def _limits(joint: ElementTree.Element) -> tuple[float, float] | None:
     if joint.get("type") == "continuous":
-        return -2000 * np.pi, 2000 * np.pi
+        return ENDLESS
     found = joint.find("limit")
     if found is None or found.get("lower") is None or found.get("upper") is None:
         return None
