@@ -133,6 +133,61 @@ def test_a_single_posture_may_stand_alone():
     assert scene.q == pytest.approx([0, np.pi, 0, 0])
 
 
+def test_the_hand_is_where_the_table_brings_it(catalogue):
+    for name, case in catalogue.items():
+        assert case["scene"].arm.hands(np.array(case["q"])) == pytest.approx(case["hands"], abs=1e-9), name
+
+
+def test_a_cloud_is_reached_within_the_limits_and_thinned_out():
+    limits = [(0, 0.5), (0, 1), (0, 0.1), (0, 1)]
+    cloud = Scene(SCARA, LENGTHS, cloud=True, limits=limits)._cloud
+    assert cloud.shape == (4000, 3)
+    assert (np.hypot(*cloud.T[:2]) <= 0.7 + 1e-6).all()
+    assert (cloud[:, 1] >= -1e-6).all() and cloud[:, 2].min() < -0.09
+    given = np.random.default_rng(0).uniform(size=(12_000, 3))
+    assert Scene(SCARA, LENGTHS, cloud=given)._cloud == pytest.approx(given[::3], abs=1e-6)
+    with pytest.raises(ValueError, match="cloud: expected n x 3 numbers"):
+        Scene(SCARA, LENGTHS, cloud=[1, 2])
+
+
+def both_elbows(pose):
+    """Both postures of `PLANAR`."""
+    x, y = pose[:2, 3]
+    bend = np.arccos((x**2 + y**2 - 0.41) / 0.4)
+    return [(np.arctan2(y, x) - np.arctan2(0.4 * np.sin(t), 0.5 + 0.4 * np.cos(t)), t) for t in (bend, -bend)]
+
+
+def test_a_students_function_is_asked_for_all_postures(watched):
+    scene = Scene(PLANAR, inverse=both_elbows, q=[0.2, 1.0])
+    scene._repr_mimebundle_()
+    assert np.array(scene._widget.ghosts)[:, 1] == pytest.approx([1.0, -1.0])
+    scene._widget.set_state({"asked": {"number": 3, "q": [0.2, 0.5]}})
+    answer = scene._widget.answer
+    assert (answer["number"], answer["words"]) == (3, "")
+    assert np.array(answer["ghosts"])[:, 1] == pytest.approx([0.5, -0.5])
+    scene.q = [0, 0.7]
+    assert np.array(scene._widget.ghosts)[:, 1] == pytest.approx([0.7, -0.7])
+
+
+@pytest.mark.parametrize(
+    "function, words",
+    [
+        (lambda pose: [], "no posture for this place"),
+        (lambda pose: ..., "nothing comes back yet"),
+        (lambda pose: [[1, 2, 3]], "a posture of this robot is 2 finite numbers"),
+        (lambda pose: [[1, float("nan")]], "2 finite numbers"),
+        (lambda pose: 1 / 0, "division by zero"),
+        (lambda pose: pose["x"], "indices"),
+    ],
+)
+def test_what_goes_wrong_in_a_students_function_is_told_in_words(watched, function, words):
+    scene = Scene(PLANAR, inverse=function)
+    assert scene._repr_mimebundle_()
+    scene._widget.set_state({"asked": {"number": 1, "q": [0.2, 0.5]}})
+    assert scene._widget.answer["ghosts"] == []
+    assert words in scene._widget.answer["words"]
+
+
 def test_sliders_have_round_values_within_the_limits():
     joints = Scene(SCARA, LENGTHS, limits=[(-1, 1), (-1, 1), (0.0, 0.25), (-1, 1)]).arm.joints
     assert (joints[2].low, joints[2].high, joints[2].step) == (0.0, 0.25, 0.005)
@@ -144,7 +199,7 @@ def test_sliders_have_round_values_within_the_limits():
 
 @pytest.fixture
 def watched(monkeypatch):
-    monkeypatch.setattr(sys.modules[Scene.__module__], "is_watched", lambda: True)
+    monkeypatch.setattr("dhkit.scene.live.is_watched", lambda: True)
 
 
 def test_a_scene_is_a_widget_with_the_still_drawing_beside_it(watched):
@@ -277,7 +332,7 @@ def catalogue():
         tool = np.array(table.tool.subs(table.values), dtype=float)
         scene = Scene(rows, table.values, tool=False if np.array_equal(tool, np.eye(4)) else tool)
         q = rng.uniform(-3, 3, (20, len(table.joints)))
-        cases[name] = {"arm": scene.state()["arm"], "q": q.tolist(), "hands": table.forward(q)}
+        cases[name] = {"scene": scene, "arm": scene.state()["arm"], "q": q.tolist(), "hands": table.forward(q)}
     return cases
 
 
@@ -303,6 +358,80 @@ def test_every_robot_of_the_catalogue_has_a_body_fixed_to_its_frames(catalogue):
         ends = [piece[end] for piece in pieces for end in ("from", "to", "centre") if end in piece]
         assert max(end["frame"] for end in ends) == last, name
         assert np.isfinite([end["point"] for end in ends]).all(), name
+
+
+def test_the_hand_leads_the_arm_of_every_robot_of_the_catalogue(catalogue):
+    rng = np.random.default_rng(3)
+    given = {}
+    for name, case in catalogue.items():
+        low, high = np.transpose([(joint.low, joint.high) for joint in case["scene"].arm.joints])
+        q = low + (high - low) * rng.uniform(0.55, 0.7, (8, len(low)))
+        aims = case["scene"].arm.hands(q + (high - low) * rng.uniform(0, 0.02, q.shape))
+        given[name] = {"arm": case["arm"], "q": q.tolist(), "aims": aims.reshape(-1, 16).tolist()}
+    found = in_node(
+        "Object.fromEntries(Object.entries(given).map(([name, { arm, q, aims }]) =>"
+        " [name, q.map((each, k) => dhkitScene.follow(arm, dhkitScene.layout(arm).unit, each, aims[k]))]))",
+        given,
+    )
+    for name, case in given.items():
+        for aim, each in zip(case["aims"], found[name]):
+            reached = catalogue[name]["scene"].arm.hands(np.array(each["q"]))
+            assert reached.ravel() == pytest.approx(np.array(aim), abs=1e-7), name
+
+
+def test_the_hand_keeps_to_the_limits_and_goes_as_far_as_it_can():
+    arm = Scene(PLANAR, limits=[(-1, 1), (0.0, 2.0)]).state()["arm"]
+    aims = [[1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, 0, 0, 0, 0, 1] for x, y in ((3, 0), (0.4, -0.5), (0.3, 0.7))]
+    found = in_node(
+        "given.aims.map((aim) => dhkitScene.follow(given.arm, 0.9, [0.3, 0.9], aim))", {"arm": arm, "aims": aims}
+    )
+    stretched, at_limit, reached = found
+    assert stretched["q"] == pytest.approx([0, 0], abs=0.02)
+    assert stretched["missed"] == pytest.approx(2.1, abs=1e-3)
+    assert at_limit["q"][0] == -1 and at_limit["missed"] > 0.01
+    assert all(-1 <= a <= 1 and 0 <= b <= 2 for a, b in (each["q"] for each in found))
+    assert reached["missed"] < 1e-9
+
+
+def test_the_ellipsoid_is_that_of_the_jacobian(catalogue):
+    given = {name: {"arm": case["arm"], "q": case["q"][:5]} for name, case in catalogue.items()}
+    found = in_node(
+        "Object.fromEntries(Object.entries(given).map(([name, { arm, q }]) => [name, q.map((each) => {"
+        " const { unit } = dhkitScene.layout(arm); return dhkitScene.speeds(arm, unit, each, dhkitScene.usual(arm, unit)); })]))",
+        given,
+    )
+    for name, case in given.items():
+        for q, each in zip(case["q"], found[name]):
+            steps = 1e-6 * np.eye(len(q))
+            hands = catalogue[name]["scene"].arm.hands(np.vstack([q + steps, q - steps]))[:, :3, 3]
+            J = (hands[: len(q)] - hands[len(q) :]).T / 2e-6
+            sizes = np.zeros(3)
+            sizes[: min(J.shape)] = np.linalg.svd(J, compute_uv=False)
+            assert [axis["speed"] for axis in each["axes"]] == pytest.approx(sizes, abs=1e-6), name
+
+
+@pytest.mark.parametrize(
+    "name, q, turn, way, free",
+    [
+        ("PLANAR_2R", [0.5, 0], False, [np.cos(0.5), np.sin(0.5), 0], None),
+        ("SCARA", [0.3, 0, 0.1, 0], False, [np.cos(0.3), np.sin(0.3), 0], None),
+        ("RX90", [0.3, 0.6, -0.5, 0, 0, 0.2], True, None, "θ₄ − θ₆"),
+        ("RX90", [0.3, 0.6, -0.5, 0, 0.8, 0.2], None, None, None),
+    ],
+)
+def test_a_singular_posture_names_what_is_lost_and_what_is_free(catalogue, name, q, turn, way, free):
+    given = {"arm": catalogue[name]["arm"], "q": q}
+    lost, words = in_node(
+        "(({ arm, q }) => { const { unit } = dhkitScene.layout(arm);"
+        " const { lost, free } = dhkitScene.speeds(arm, unit, q, dhkitScene.usual(arm, unit));"
+        " return [lost, free.map((each) => dhkitScene.inWords(each, arm.joints))]; })(given)",
+        given,
+    )
+    assert [each["turn"] for each in lost] == ([] if turn is None else [turn])
+    if way is not None:
+        assert np.abs(np.dot(lost[0]["way"], way)) == pytest.approx(1, abs=1e-3)
+    if free is not None:
+        assert words == [free]
 
 
 def test_labels_never_hide_each_other():

@@ -1,4 +1,4 @@
-"""The page of a scene in a real browser: it draws, sliders move the arm, ghosts can be clicked, nothing acts as HTML."""
+"""Scenes in a real browser: sliders, ghosts, the hand that is dragged, a kernel that answers; nothing acts as HTML."""
 
 import base64
 import json
@@ -24,7 +24,7 @@ t1, t2, t4, a2, a3, d2 = sympy.symbols("t1 t2 t4 a2 a3 d2")
 SCARA = [[0, 0, 0, 0, t1], [0, a2, 0, 0, t2], [1, a3, 0, -d2, 0], [0, 0, 0, 0, t4]]
 BOTH = [[0.2, 1.2, 0.1, 0.0], [1.2, -1.2, 0.1, 1.4]]
 HOSTILE = '<img src=x onerror="window.hacked=1"><b>bold</b>'
-KEYS = {"ArrowRight": 39, "ArrowLeft": 37, "Home": 36}
+KEYS = {"ArrowRight": 39, "ArrowLeft": 37, "ArrowUp": 38, "Home": 36}
 
 
 class Tab:
@@ -44,8 +44,19 @@ class Tab:
             page = next(target for target in json.load(answer) if target["type"] == "page")
         self.socket = websocket.create_connection(page["webSocketDebuggerUrl"], suppress_origin=True, timeout=120)
         self.numbers = count()
+        self.resize(width, height)
+
+    def resize(self, width, height):
         size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
         self.tell("Emulation.setDeviceMetricsOverride", **size)
+
+    def prefer(self, scheme):
+        self.tell("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+
+    def open(self, page):
+        """Show a page with a scene, once it has been drawn."""
+        self.tell("Page.navigate", url=page.as_uri())
+        self.until(f"location.href === '{page.as_uri()}' && !!root?.querySelector('.label')")
 
     def tell(self, method, **params):
         number = next(self.numbers)
@@ -80,6 +91,16 @@ class Tab:
             button = "none" if kind == "mouseMoved" else "left"
             self.tell("Input.dispatchMouseEvent", type=kind, x=x, y=y, button=button, clickCount=1)
 
+    def drag(self, x, y, by, steps=10):
+        """Press the mouse at (x, y), move it in steps, and release it."""
+        mouse = {"x": x, "y": y, "button": "left", "clickCount": 1}
+        self.tell("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
+        self.tell("Input.dispatchMouseEvent", **mouse, type="mousePressed")
+        for k in range(1, steps + 1):
+            there = {"x": x + by[0] * k / steps, "y": y + by[1] * k / steps}
+            self.tell("Input.dispatchMouseEvent", **mouse | there, type="mouseMoved", buttons=1)
+        self.tell("Input.dispatchMouseEvent", **mouse | there, type="mouseReleased")
+
     def picture(self):
         """What the canvas shows, (height, width, 4); the scene draws at the next frame of the screen."""
         url = self.ask(
@@ -94,21 +115,25 @@ class Tab:
         self.process.wait()
 
 
+@pytest.fixture(scope="module")
+def tab(tmp_path_factory):
+    tab = Tab(tmp_path_factory.mktemp("profile"), 900, 620)
+    yield tab
+    tab.close()
+
+
 @pytest.fixture
-def show(tmp_path):
-    """A function that opens a scene's page in a tab."""
-    tabs = []
+def show(tab, tmp_path):
+    """A function that opens a scene's page."""
 
-    def show(scene, width=900, height=620):
+    def show(scene, width=900, height=620, scheme="light"):
         scene.save(tmp_path / "arm.html")
-        tabs.append(Tab(tmp_path / "profile", width, height))
-        tabs[-1].tell("Page.navigate", url=(tmp_path / "arm.html").as_uri())
-        tabs[-1].until("!!root?.querySelector('.label')")
-        return tabs[-1]
+        tab.resize(width, height)
+        tab.prefer(scheme)
+        tab.open(tmp_path / "arm.html")
+        return tab
 
-    yield show
-    for tab in tabs:
-        tab.close()
+    return show
 
 
 def shares(one, other):
@@ -116,6 +141,12 @@ def shares(one, other):
     return (np.abs(one - other).max(axis=2) > 0.1).mean()
 
 
+def numbers(texts):
+    """Readouts as numbers, in degrees or metres."""
+    return [float(text.rstrip("°m ").replace("\N{MINUS SIGN}", "-")) for text in texts]
+
+
+GRIP = "(() => { const box = root.querySelector('.grip').getBoundingClientRect(); return [box.x + box.width / 2, box.y + box.height / 2]; })()"
 READOUTS = "[...root.querySelectorAll('output')].map((output) => output.textContent)"
 HAND = "root.querySelector('.hand').textContent"
 
@@ -159,9 +190,7 @@ def test_sliders_move_the_arm_and_ghosts_are_clicked(show):
     # The other one by its button.
     tab.ask(f"root.querySelectorAll('[aria-label=postures] button')[{1 - first}].click()")
     tab.until(f"{pressed} === {1 - first}")
-    assert float(tab.ask(READOUTS)[1].rstrip("°").replace("\N{MINUS SIGN}", "-")) == pytest.approx(
-        np.degrees(BOTH[1 - first][1]), abs=0.05
-    )
+    assert numbers(tab.ask(READOUTS))[1] == pytest.approx(np.degrees(BOTH[1 - first][1]), abs=0.05)
     assert tab.ask("performance.getEntriesByType('resource').length") == 0
 
 
@@ -175,3 +204,107 @@ def test_a_path_is_played_on_a_phone_and_texts_stay_texts(show):
     assert tab.ask("document.querySelectorAll('b, img').length + root.querySelectorAll('b, img').length") == 0
     assert tab.ask("window.hacked === undefined")
     assert (tab.picture()[..., 3] > 0).mean() > 0.05
+
+
+PLANAR = [[0, 0, 0, 0, t1], [0, 0.5, 0, 0, t2], [0, 0.4, 0, 0, 0]]
+ELBOWS = [[0.2, 1.0], [0.2 + 2 * np.arctan2(0.4 * np.sin(1.0), 0.5 + 0.4 * np.cos(1.0)), -1.0]]
+
+
+def hand_of(q):
+    return np.array([0.5 * np.cos(q[0]) + 0.4 * np.cos(sum(q)), 0.5 * np.sin(q[0]) + 0.4 * np.sin(sum(q))])
+
+
+def test_the_hand_is_dragged_and_both_elbows_follow(show):
+    tab = show(Scene(PLANAR, q=ELBOWS[0], trace=True, ellipsoid=True).ghosts(ELBOWS))
+    before = tab.picture()
+    tab.drag(*tab.ask(GRIP), by=(-70, -50))
+    assert shares(tab.picture(), before) > 0.01
+    first = np.radians(numbers(tab.ask(READOUTS)))
+    assert np.linalg.norm(hand_of(first) - hand_of(ELBOWS[0])) > 0.08
+    # The trace has its colour nowhere else in the picture.
+    assert (np.abs(tab.picture()[..., :3] - np.array([176, 48, 122]) / 255).max(axis=2) < 0.02).sum() > 40
+
+    tab.ask("root.querySelectorAll('[aria-label=postures] button')[1].click()")
+    tab.until("root.querySelectorAll('[aria-label=postures] button')[1].ariaPressed === 'true'")
+    second = np.radians(numbers(tab.ask(READOUTS)))
+    assert second[1] == pytest.approx(-first[1], abs=0.003)
+    assert hand_of(second) == pytest.approx(hand_of(first), abs=0.003)
+
+    # By its keys; out of reach it says so, and the arm is singular there.
+    tab.ask("root.querySelector('.grip').focus()")
+    tab.press("ArrowUp")
+    assert hand_of(np.radians(numbers(tab.ask(READOUTS)))) - hand_of(second) == pytest.approx([0, 0.009], abs=0.003)
+    tab.drag(*tab.ask(GRIP), by=(400, -40), steps=4)
+    assert numbers(tab.ask(READOUTS))[1] == pytest.approx(0, abs=2.5)
+    tab.picture()
+    assert "the hand stays while" in tab.ask("root.querySelector('.rates').textContent")
+    assert tab.ask("[...root.querySelectorAll('.label.lost')].some((label) => label.textContent === 'no motion along')")
+
+
+def test_a_hand_that_cannot_go_on_says_why(show):
+    tab = show(Scene(PLANAR, q=[0.2, 1.0], limits=[(-0.3, 0.5), (0.5, 1.5)]))
+    said = "root.querySelector('.caption').textContent"
+    tab.ask("root.querySelector('.grip').focus()")
+    tab.press("ArrowUp", 30)
+    assert "θ₁" in tab.ask(said) and "at the limit" in tab.ask(said)
+    assert numbers(tab.ask(READOUTS))[0] <= 28.7
+
+
+FAKE_KERNEL = """(async () => {
+    const state = JSON.parse(document.getElementById('state').textContent), heard = {}, told = [], asked = [];
+    const known = { ...state, cloud: new DataView(new ArrayBuffer(0)) };
+    const model = {
+        get: (name) => known[name], on: (event, act) => { heard[event] = act; }, off: () => {}, save_changes: () => {},
+        set: (name, value) => { known[name] = value; (name === 'asked' ? asked : told).push(value); },
+    };
+    const host = document.getElementById('scene');
+    host.replaceWith(window.host = Object.assign(document.createElement('div'), { id: 'scene' }));
+    window.kernel = { asked, told, answer(found) { known.answer = found; heard['change:answer'](); } };
+    dhkitScene.default.render({ model, el: window.host });
+})()"""
+
+
+def test_a_kernel_is_asked_one_question_at_a_time(show):
+    tab = show(Scene(PLANAR, q=ELBOWS[0], inverse=lambda pose: ELBOWS))
+    tab.ask(FAKE_KERNEL)
+    tab.until("!!root?.querySelector('.label')")
+    tab.drag(*tab.ask(GRIP), by=(-60, -40))
+    (question,) = tab.ask("kernel.asked")
+    tab.ask("kernel.answer({ number: 1, ghosts: [[0.1, 0.2]], words: '' })")
+    assert tab.ask("root.querySelectorAll('[aria-label=postures] button').length") == 1
+    # The next one is for where the hand is by then.
+    assert [each["number"] for each in tab.ask("kernel.asked")] == [1, 2]
+    now = tab.ask("kernel.asked.at(-1).q")
+    assert now != question["q"] and np.degrees(now) == pytest.approx(numbers(tab.ask(READOUTS)), abs=0.06)
+    tab.ask("kernel.answer({ number: 1, ghosts: [], words: 'too late' })")
+    assert tab.ask("root.querySelector('.caption').textContent") == ""
+    tab.ask(f"kernel.answer({{ number: 2, ghosts: [], words: {json.dumps(HOSTILE)} }})")
+    assert tab.ask("root.querySelector('.caption').textContent") == HOSTILE
+    assert tab.ask("root.querySelectorAll('b, img').length") == 0
+
+
+def test_a_cloud_is_drawn_light_and_dark_and_hidden(show):
+    pictures = []
+    for scheme in ("light", "dark"):
+        tab = show(Scene(SCARA, {"a2": 0.4, "a3": 0.3}, q=BOTH[0], cloud=True), scheme=scheme)
+        with_cloud = tab.picture()
+        tab.ask("[...root.querySelectorAll('button')].find((one) => one.textContent === 'cloud').click()")
+        assert shares(tab.picture(), with_cloud) > 0.01
+        pictures.append(with_cloud)
+    assert shares(*pictures) > 0.1
+
+
+def test_frames_per_second_are_told(show, capsys):
+    tab = show(Scene(PLANAR, q=ELBOWS[0], ellipsoid=True, trace=True).ghosts(ELBOWS))
+    frames = tab.ask("""await (async () => {
+        const input = root.querySelector('input[type=range]'), start = performance.now();
+        for (let k = 0; k < 60; k++) {
+            input.value = k;
+            input.dispatchEvent(new Event('input'));
+            await new Promise((done) => requestAnimationFrame(done));
+        }
+        return 60000 / (performance.now() - start);
+    })()""")
+    with capsys.disabled():
+        print(f"\nthe scene moves at {frames:.0f} frames a second in this browser, without a graphics card")
+    assert numbers(tab.ask(READOUTS))[0] == 59

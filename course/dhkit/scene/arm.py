@@ -12,6 +12,7 @@ import numpy as np
 import sympy
 
 from ..drawing.inputs import as_names, as_numbers, list_rows
+from ..geometry import modified_dh
 from ..interactive import step_of
 
 COLUMNS = ("sigma", "a", "alpha", "d", "theta")
@@ -34,6 +35,8 @@ class Joint:
         Ends of its slider, in radians or metres.
     step : float
         Of its slider, in metres; a revolute joint moves by whole degrees.
+    limited : bool
+        Whether its ends are the robot's own, and not the slider's only.
     """
 
     name: str
@@ -41,6 +44,7 @@ class Joint:
     low: float
     high: float
     step: float
+    limited: bool
 
 
 @dataclass(frozen=True)
@@ -77,6 +81,22 @@ class Arm:
         table[prismatic, 3] += moved[prismatic]
         table[~prismatic, 4] += moved[~prismatic]
         return table
+
+    def hands(self, q: np.ndarray) -> np.ndarray:
+        """The hand seen from the base for postures q, shape (..., n): frames of shape (..., 4, 4)."""
+        q = np.asarray(q, dtype=float)
+        prismatic = self.rows[:, 0] == 1
+        moved = q @ self.coupling.T
+        d, theta = self.rows[:, 3] + prismatic * moved, self.rows[:, 4] + ~prismatic * moved
+        hand = np.broadcast_to(np.eye(4), (*q.shape[:-1], 4, 4))
+        for i, (_, a, alpha, *_) in enumerate(self.rows):
+            hand = hand @ modified_dh(a, alpha, d[..., i], theta[..., i])
+        return hand if self.tool is None else hand @ self.tool
+
+    def reached(self, count: int) -> np.ndarray:
+        """Where the hand gets with random joint values within the limits: the same points each time, shape (count, 3)."""
+        low, high = np.transpose([(joint.low, joint.high) for joint in self.joints])
+        return self.hands(np.random.default_rng(0).uniform(low, high, (count, len(low))))[:, :3, 3]
 
     @property
     def ends_in_tool(self) -> bool:
@@ -232,7 +252,7 @@ def _joints(
         else:
             low, high = min(-np.pi, start[j]), max(np.pi, start[j])
         step = step_of(float(low), float(high), 0.0 if low <= 0 <= high else float(low)) if prismatic else 0.0
-        joints.append(Joint(name, bool(prismatic), float(low), float(high), step))
+        joints.append(Joint(name, bool(prismatic), float(low), float(high), step, ends is not None))
     return tuple(joints)
 
 

@@ -1,26 +1,24 @@
-"""The scene itself: what a notebook says to a robot, shown by a widget, by a page, or by a still drawing."""
+"""The scene of a serial robot: what a notebook says to it, and what it asks of a student's own function."""
 
 from __future__ import annotations
 
 import base64
-import os
-import sys
-from collections.abc import Mapping, Sequence
-from io import BytesIO
-from pathlib import Path
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from ..drawing.inputs import as_number, as_rows
+from ..drawing.inputs import as_number, as_numbers, as_rows
 from .arm import frame_names, read_arm
-from .page import write_page
+from .live import Live
 
 MOST_GHOSTS = 64
 MOST_POINTS = 20_000
+MOST_IN_CLOUD = 5_000
+_LONGEST = 200  # letters of what is said of a student's function
 
 
-class Scene:
+class Scene(Live):
     """A robot in space from its table, which moves in the reader's browser.
 
     Parameters
@@ -33,10 +31,20 @@ class Scene:
         Numbers for the lengths, by name: ``{"a2": 0.4, "a3": 0.3}``. A number for a joint variable is where it starts.
     q : sequence of n numbers, optional
         Joint values to start from; by default zeros.
+    inverse : function, optional
+        All postures for a pose of the hand, a 4x4 array seen from the base: rows of n joint values, or an empty list.
+        It is asked anew whenever the reader moves the hand, and its answers stand as ghosts; what goes wrong in it is
+        told in words. In a page without Python the ghosts are led along by the browser itself.
+    cloud : bool or array-like, shape (k, 3), optional
+        The workspace as points in metres; True: reached with random joint values within the limits.
+    trace, ellipsoid : bool
+        Draw the way of the hand; its velocity ellipsoid, with what the hand loses near a singular posture. The reader
+        has a button for each.
     tool : bool or 4x4 matrix
         True: the last row of a table of numbers is a tool, not a joint. A matrix: the hand seen from the last frame.
     limits : sequence of n pairs (lowest, highest), optional
-        Of each joint, in radians or metres; by default a full turn, and for a slide about half of the robot's lengths.
+        Of each joint, in radians or metres, which are drawn and which the hand keeps to; by default a full turn, and
+        for a slide about half of the robot's lengths.
     names : sequence of texts, optional
         Names of the frames, by default 0, 1, ..., and E for a tool.
     frames : sequence of indices, optional
@@ -53,6 +61,10 @@ class Scene:
     >>> t1, t2 = sympy.symbols("t1 t2")
     >>> scene = Scene([[0, 0, 0, 0, t1], [0, 0.5, 0, 0, t2], [0, 0.4, 0, 0, 0]])
     >>> scene.q = [0.3, 1.2]
+
+    With a student's own function, all postures follow the hand:
+
+    >>> Scene(table, inverse=lambda T: both_elbows(T[0, 3], T[1, 3]))
     """
 
     def __init__(
@@ -61,6 +73,10 @@ class Scene:
         values: Mapping[Any, Any] | None = None,
         q: Sequence[float] | None = None,
         *,
+        inverse: Callable[[np.ndarray], Any] | None = None,
+        cloud: Any = None,
+        trace: bool = False,
+        ellipsoid: bool = False,
         tool: Any = False,
         limits: Sequence[tuple[float, float]] | None = None,
         names: Sequence[Any] | None = None,
@@ -76,7 +92,11 @@ class Scene:
         self._path: list[list[float]] = []
         self._seconds = 4.0
         self._run = 0
-        self._widget: Any = None
+        self._inverse = inverse
+        self._shown = [
+            name for name, on in {"trace": trace, "ellipsoid": ellipsoid, "cloud": True, "limits": True}.items() if on
+        ]
+        self._cloud = _points(self.arm.reached(4_000) if cloud is True else cloud)
         if q is not None:
             self.q = q  # type: ignore[assignment]
 
@@ -93,6 +113,8 @@ class Scene:
         self._q = rows[0]
         if self._widget is not None:
             self._widget.q = self._q
+            if self._inverse:
+                self._widget.ghosts = self._branches()[0]
 
     def ghosts(self, solutions: Any) -> Scene:
         """Set postures beside the robot, to compare and to click; an empty list takes them away.
@@ -140,36 +162,20 @@ class Scene:
             self._widget.set_trait("run", self._run)
         return self
 
-    def save(self, file: str | os.PathLike[str]) -> None:
-        """Write a page with the scene as it stands, which needs neither Python nor a network.
-
-        Parameters
-        ----------
-        file : path
-            For instance ``"arm.html"``.
-        """
-        Path(file).write_text(write_page(self.title or "Robot", self.state()), encoding="utf-8")
-
-    def still(self) -> bytes:
-        """The still drawing, as PNG: the postures side by side if there are ghosts, else the robot."""
-        import matplotlib.pyplot as plt
-
+    def _draw(self) -> Any:
+        """The postures side by side if there are ghosts, else the robot."""
         from ..drawing import draw_chain, draw_posture_gallery
 
-        if self._ghosts and self.arm.tool is None:
-            ax = draw_posture_gallery([self.arm.table(q) for q in self._ghosts[:16]])
-        else:
-            fixed = self.arm.tool is None and self.arm.ends_in_tool
-            names = self.names if self.arm.tool is None else self.names[:-1]
-            shown = [i for i in self._frames if i < len(names)]
-            ax = draw_chain(self.arm.table(self._q), tool=fixed, frames=shown, names=names)
-        buffer = BytesIO()
-        ax.figure.savefig(buffer, format="png", dpi=90, bbox_inches="tight")
-        plt.close(ax.figure)
-        return buffer.getvalue()
+        ghosts = self._branches()[0] if self._inverse else self._ghosts
+        if ghosts and self.arm.tool is None:
+            return draw_posture_gallery([self.arm.table(q) for q in ghosts[:16]])
+        fixed = self.arm.tool is None and self.arm.ends_in_tool
+        names = self.names if self.arm.tool is None else self.names[:-1]
+        shown = [i for i in self._frames if i < len(names)]
+        return draw_chain(self.arm.table(self._q), tool=fixed, frames=shown, names=names)
 
     def state(self) -> dict[str, Any]:
-        """All that the browser needs, as JSON holds it."""
+        """All that the browser needs, as JSON holds it; the points of a cloud as bytes in base 64."""
         arm = self.arm
         # The layout of the body is chosen with all slides drawn out.
         nominal = [joint.high if joint.prismatic else 0.0 for joint in arm.joints]
@@ -184,38 +190,48 @@ class Scene:
                 "names": self.names,
                 "frames": self._frames,
                 "nominal": nominal,
+                "shown": self._shown,
+                "asks": self._inverse is not None,
             },
             "q": self._q,
-            "ghosts": self._ghosts,
+            "ghosts": self._branches()[0] if self._inverse else self._ghosts,
+            "cloud": base64.b64encode(self._cloud.tobytes()).decode(),
             "path": self._path,
             "seconds": self._seconds,
             "run": self._run,
         }
 
-    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
-        """The widget with the still drawing beside it, for a printed notebook or a kernel without widgets."""
-        bundle: dict[str, Any] = {
-            "text/plain": f"robot with {len(self.arm.joints)} joints: {', '.join(joint.name for joint in self.arm.joints)}",
-            "image/png": base64.b64encode(self.still()).decode(),
-        }
-        if (widget := self._live()) is not None:
-            view = {"version_major": 2, "version_minor": 0, "model_id": widget.model_id}
-            bundle["application/vnd.jupyter.widget-view+json"] = view
-        return bundle
+    def _in_words(self) -> str:
+        return f"robot with {len(self.arm.joints)} joints: {', '.join(joint.name for joint in self.arm.joints)}"
 
-    def _live(self) -> Any:
-        """The widget, made at first use; None where there is none."""
-        if self._widget is None and is_watched():
-            try:
-                from .widget import SceneWidget
-            except ImportError:
-                return None
-            self._widget = SceneWidget(**self.state())
-            self._widget.observe(self._moved, "q")
-        return self._widget
+    def _make_widget(self) -> Any:
+        from .widget import SceneWidget
+
+        widget = SceneWidget(**self.state() | {"cloud": self._cloud.tobytes()})
+        widget.observe(self._moved, "q")
+        widget.observe(self._asked, "asked")
+        return widget
 
     def _moved(self, change: Any) -> None:
         self._q = list(change.new)
+
+    def _asked(self, change: Any) -> None:
+        """The reader has moved the hand: answer with all postures for it."""
+        self._q = list(change.new["q"])
+        ghosts, words = self._branches()
+        self._widget.answer = {"number": change.new["number"], "ghosts": ghosts, "words": words}
+
+    def _branches(self) -> tuple[list[list[float]], str]:
+        """What the student's function gives for the hand as it stands, and in words why nothing comes of it."""
+        pose = self.arm.hands(np.array(self._q))
+        try:
+            found = self._inverse(pose.copy())  # type: ignore[misc]
+            if found is None or found is ...:
+                return [], "inverse: nothing comes back yet"
+            rows = self._rows(found, "inverse", MOST_GHOSTS)
+        except Exception as error:  # whatever may go wrong in it
+            return [], f"inverse: {error or type(error).__name__}"[:_LONGEST]
+        return rows, "" if rows else "inverse: no posture for this place"
 
     def _rows(self, rows: Any, what: str, most: int = MOST_POINTS) -> list[list[float]]:
         """Postures as lists of finite numbers; a single one may stand alone."""
@@ -234,17 +250,12 @@ class Scene:
         return found.tolist()
 
 
-def is_watched() -> bool:
-    """Whether somebody sits before the notebook and could turn a robot.
-
-    Who runs one unattended (nbconvert, the grader) tells the kernel that nobody will answer its questions.
-    """
-    shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
-    kernel = getattr(shell, "kernel", None)
-    if kernel is None:
-        return False
-    request = kernel.get_parent("shell") if hasattr(kernel, "get_parent") else {}
-    return bool(request.get("content", {}).get("allow_stdin", True))
+def _points(cloud: Any) -> np.ndarray:
+    """Points of a cloud as single precision, thinned out where they are too many."""
+    if cloud is None or cloud is False:
+        return np.empty((0, 3), dtype=np.float32)
+    points = as_numbers(cloud, "cloud", (None, 3))
+    return points[:: -(-len(points) // MOST_IN_CLOUD) or 1].astype("<f4")
 
 
 def _shown(frames: Sequence[int] | None, count: int) -> list[int]:

@@ -18,3 +18,6 @@ class SceneWidget(anywidget.AnyWidget):
     path: Any = traitlets.List().tag(sync=True)
     seconds = traitlets.Float().tag(sync=True)
     run = traitlets.Int().tag(sync=True)
+    cloud = traitlets.Bytes().tag(sync=True)
+    asked: Any = traitlets.Dict().tag(sync=True)
+    answer: Any = traitlets.Dict().tag(sync=True)

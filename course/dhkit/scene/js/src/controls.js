@@ -62,21 +62,24 @@ export function buttons(title, entries, onPress) {
 
 export const pressed = (button, on) => button.setAttribute("aria-pressed", on);
 
-/** Which frames are shown, and which lines. `show` is changed in place. */
-export function chooser(arm, show, onChange) {
+/** Which frames are shown, and what else: `views` are [key, text, label]. `show` is changed in place. */
+export function chooser(arm, show, views, onChange) {
   const frames = buttons("frames", arm.names.map((name, i) => ({ text: name, label: `frame ${name}`, on: show.frames.has(i) })), (i, button) => {
     if (!show.frames.delete(i)) show.frames.add(i);
     pressed(button, show.frames.has(i));
-    onChange();
+    onChange("frames");
   });
-  const lines = [["axes", "joint axes"], ["normals", "common normals, a and d"]];
-  const toggles = buttons("lines", lines.map(([key, label]) => ({ text: key === "axes" ? "axes" : "a, d", label, on: show[key] })), (i, button) => {
-    const key = lines[i][0];
+  return [frames.element, toggles(show, views, onChange)];
+}
+
+/** Buttons that turn entries of `show` on and off. */
+export function toggles(show, views, onChange) {
+  return buttons("shown", views.map(([key, text, label]) => ({ text, label, on: Boolean(show[key]) })), (i, button) => {
+    const [key] = views[i];
     show[key] = !show[key];
     pressed(button, show[key]);
-    onChange();
-  });
-  return [frames.element, toggles.element];
+    onChange(key);
+  }).element;
 }
 
 /** Play, pause, and a slider over the time of a path. */

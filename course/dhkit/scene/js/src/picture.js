@@ -1,8 +1,10 @@
 // What of a robot is drawn in one posture: body, frames, joint axes, common normals, and where their labels belong.
 
-import { add, chain, column, cross, dot, norm, place, rowsAt, subtract } from "./kinematics.js";
+import { same } from "./follow.js";
+import { add, chain, column, cross, dot, norm, place, rowsAt, subtract, walk } from "./kinematics.js";
 import { direction, layout, movingFrames, normalOf } from "./layout.js";
-import { ball, box, cone, tube } from "./solids.js";
+import { ball, box, cone, ellipsoid, tube } from "./solids.js";
+import { speeds, usual } from "./speeds.js";
 
 const AXIS = 0.13; // length of a drawn axis, in sizes of the robot
 const LETTERS = ["x", "y", "z"];
@@ -12,16 +14,110 @@ const DASHES = {
   y: [[0, 0.3], [0.38, 0.64], [0.72, 1]],
   z: [[0, 0.36], [0.44, 0.5], [0.58, 0.82], [0.9, 0.96]],
 };
+const SPEED = 0.2; // seconds that the hand goes at the speeds of its ellipsoid
 const CENTRE_LINE = [[0, 9], [12, 14]]; // dash and dot of a joint axis, of a period of 17
 
 /** A number of metres in at most three digits behind the point, with a proper minus sign. */
 export const metres = (value) => String(Number(value.toFixed(3))).replace("-", "\u2212");
 
 export class Picture {
-  constructor(arm) {
+  /** `cloud` holds the points that the hand reaches, three numbers each. */
+  constructor(arm, cloud = null) {
     this.arm = arm;
+    this.cloud = cloud;
+    this.start = arm.nominal;
     this.joints = movingFrames(arm);
     Object.assign(this, layout(arm));
+    this.usual = usual(arm, this.unit);
+    const axes = this.joints.map((i) => column(this.pose(arm.nominal)[i], 2));
+    const level = axes.every(([, , z]) => Math.abs(z) > 0.999);
+    /** Whether the hand stays on one level. */
+    this.flat = level && this.joints.every((i) => arm.rows[i - 1][0] === 0);
+    /** Direction from which it is looked at: from above if it moves in a plane, else from the front right. */
+    this.seat = this.flat ? [0, -0.75, 1.5] : [0.55, -1, 0.55];
+  }
+
+  pose(q) {
+    return chain(this.arm, q);
+  }
+
+  /** Where the hand is taken hold of. */
+  handle(q) {
+    return column(this.pose(q).at(-1), 3);
+  }
+
+  same(one, other) {
+    return same(this.arm.joints, one, other);
+  }
+
+  /** All that is drawn beside the body: solids in front of it, others, those of the speeds, and labels. */
+  scenery(frames, q, show, step, colours) {
+    const shown = step ? [step.row, step.row + 1] : [...show.frames];
+    const nothing = { solids: [], labels: [] };
+    const axes = show.axes ? this.axes(frames, shown, colours) : nothing;
+    const normals = show.normals ? this.normals(frames, q, colours) : nothing;
+    const limits = show.limits ? this.limits(frames, q, colours) : [];
+    const fast = show.ellipsoid ? this.velocities(frames, q, colours) : { solids: [], lines: [], labels: [] };
+    const parts = [this.frames(frames, shown, colours), normals];
+    const walker = step ? this.walker(walk(this.arm, q, step.row, step.share), colours) : [];
+    return {
+      front: [...parts.flatMap((part) => part.solids), ...fast.lines, ...walker],
+      axes: [...axes.solids, ...limits],
+      speeds: fast.solids,
+      labels: [...fast.labels, ...parts.flatMap((part) => part.labels), ...axes.labels],
+    };
+  }
+
+  /** What the speeds of the hand are in a posture. */
+  speeds(q) {
+    return speeds(this.arm, this.unit, q, this.usual);
+  }
+
+  /** The velocity ellipsoid at the hand, and the lines along or about which it cannot move. */
+  velocities(frames, q, colours) {
+    const { axes, lost } = this.speeds(q), hand = column(frames.at(-1), 3), thin = 0.004 * this.unit;
+    const sizes = axes.map(({ speed }) => Math.max(SPEED * speed, thin)), ways = axes.map(({ way }) => way);
+    const lines = axes.filter(({ speed }) => SPEED * speed > 2 * thin)
+      .map(({ way, speed }) => tube(add(hand, way, -SPEED * speed), add(hand, way, SPEED * speed), 0.7 * thin, colours.speed));
+    const labels = [];
+    lost.forEach(({ way, turn }, i) => {
+      const reach = 0.24 * this.unit, ends = [-1, 1].map((side) => add(hand, way, side * reach));
+      for (let from = -1; from < 0.85; from += 0.25) lines.push(tube(add(hand, way, from * reach), add(hand, way, (from + 0.15) * reach), thin, colours.lost));
+      ends.forEach((end, k) => {
+        // A plate at each end bars the way along the line, a ring stands for the turn about it.
+        const plate = 0.03 * this.unit, side = (k ? -1 : 1) * 0.004 * this.unit;
+        if (!turn) lines.push(tube(end, add(end, way, side), plate, colours.lost));
+        else lines.push(...ring(end, way, plate, thin, colours.lost));
+      });
+      labels.push({ id: `lost ${i}`, text: [[turn ? "no turn about" : "no motion along", ""]], kind: "lost", at: ends[1], way, gap: 10 });
+    });
+    return { solids: [ellipsoid(hand, ways, sizes, lost.length ? colours.lost : colours.speed)], lines, labels };
+  }
+
+  /** Arcs and rails between the limits of the joints, and where each joint stands between them. */
+  limits(frames, q, colours) {
+    return this.arm.joints.flatMap(({ prismatic, low, high }, j) => {
+      const i = this.joints.find((frame) => this.arm.coupling[frame - 1][j]);
+      if (!prismatic && high - low > 2 * Math.PI - 1e-6) return [];
+      const share = this.arm.coupling[i - 1][j], frame = frames[i], z = column(frame, 2), width = 0.004 * this.unit;
+      const stopped = q[j] - low < 1e-6 || high - q[j] < 1e-6, colour = stopped ? colours.lit : colours.limit;
+      if (prismatic) {
+        const side = add(column(frame, 3), column(frame, 0), 3 * this.radius);
+        const ends = [low, high].map((end) => add(side, z, share * (end - q[j])));
+        return [tube(...ends, width, colour), ...ends.map((end) => ball(end, 2 * width, colour)), ball(side, 2.8 * width, colours.lit)];
+      }
+      const centre = at(frames, this.centres.get(i)), far = 4.4 * this.radius;
+      const spoke = (angle, out = far) => {
+        const turn = share * (angle - q[j]), x = column(frame, 0), y = column(frame, 1);
+        return add(add(centre, x, out * Math.cos(turn)), y, out * Math.sin(turn));
+      };
+      const count = Math.max(Math.ceil((high - low) / 0.12), 1), angles = Array.from({ length: count + 1 }, (_, k) => low + (k / count) * (high - low));
+      return [
+        ...angles.slice(1).map((angle, k) => tube(spoke(angles[k]), spoke(angle), width, colour)),
+        ...[low, high].map((end) => tube(spoke(end, 0.8 * far), spoke(end, 1.2 * far), 1.4 * width, colour)),
+        ball(spoke(q[j]), 2.8 * width, colours.lit),
+      ];
+    });
   }
 
   /** Solids of the body: `colours` by tone, and what the joint with the number `lit` drives in the colour `colours.lit`. */
@@ -140,6 +236,13 @@ export class Picture {
     const rim = 5 * this.radius, plate = [[rim, 0, this.drop], [0, rim, this.drop], [-rim, 0, this.drop], [0, -rim, this.drop]];
     return [...plate, ...ends.map((end) => at(frames, end)), ...frames.map((frame) => column(frame, 3))];
   }
+}
+
+/** A circle about a line. */
+function ring(centre, way, radius, width, colour) {
+  const side = cross(way, Math.abs(way[0]) < 0.8 ? [1, 0, 0] : [0, 1, 0]), x = side.map((part) => part / norm(side)), y = cross(way, x);
+  const points = Array.from({ length: 19 }, (_, k) => add(add(centre, x, radius * Math.cos((k * Math.PI) / 9)), y, radius * Math.sin((k * Math.PI) / 9)));
+  return points.slice(1).map((end, k) => tube(points[k], end, width, colour));
 }
 
 /** An axis of a frame, of the given length and half width: its dashes tell which one it is. */

@@ -1,4 +1,4 @@
-// Many tubes, balls, boxes and cones drawn in four calls.
+// Many tubes, balls, boxes and cones drawn in a few calls.
 
 import * as THREE from "three";
 
@@ -8,6 +8,7 @@ const GEOMETRIES = {
   ball: () => new THREE.SphereGeometry(1, 24, 16),
   box: () => new THREE.BoxGeometry(2, 2, 2),
   cone: () => new THREE.ConeGeometry(1, 1, 24),
+  globe: () => new THREE.SphereGeometry(1, 40, 28),
 };
 
 function between(start, end, width) {
@@ -22,9 +23,13 @@ export const cone = (start, end, width, colour) => ({ kind: "cone", matrix: betw
 export const ball = ([x, y, z], width, colour) => ({
   kind: "ball", colour, matrix: new THREE.Matrix4().makeScale(width, width, width).setPosition(x, y, z),
 });
-export function box(centre, axes, sizes, colour) {
-  const sides = axes.map((axis, i) => new THREE.Vector3(...axis).multiplyScalar(sizes[i]));
-  return { kind: "box", colour, matrix: new THREE.Matrix4().makeBasis(...sides).setPosition(...centre) };
+const along = (axes, sizes, centre) => new THREE.Matrix4()
+  .makeBasis(...axes.map((axis, i) => new THREE.Vector3(...axis).multiplyScalar(sizes[i]))).setPosition(...centre);
+export const box = (centre, axes, sizes, colour) => ({ kind: "box", colour, matrix: along(axes, sizes, centre) });
+export function ellipsoid(centre, axes, sizes, colour) {
+  const [x, y, z] = axes.map((axis) => new THREE.Vector3(...axis));
+  const right = x.clone().cross(y).dot(z) > 0 ? axes : [axes[0], axes[1], axes[2].map((part) => -part)];
+  return { kind: "globe", colour, matrix: along(right, sizes, centre) };
 }
 
 /** A group whose contents are set anew at each step: `draw` a list of what the functions above make. */

@@ -3,9 +3,8 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
-import { add, chain, column, norm, subtract, walk } from "./kinematics.js";
+import { add, norm, subtract } from "./kinematics.js";
 import { Labels } from "./labels.js";
-import { Picture } from "./picture.js";
 import { Solids, ball, tube } from "./solids.js";
 
 const AXES = { light: { x: "#c94f00", y: "#00835f", z: "#0067a8" }, dark: { x: "#ff8a3d", y: "#2fd3a0", z: "#63b8f5" } };
@@ -13,10 +12,12 @@ const THEMES = {
   light: {
     ...AXES.light, ink: "#222222", soft: "#7d858f", link: "#dbe1e8", joint: "#6f8fb3", hand: "#566270", base: "#b4bdc7",
     lit: "#f0a30a", trace: "#b0307a", ahead: "#d9a8c4", ghost: "#9fb4cc", chosen: "#e69f00", grid: "#c9d0d8",
+    low: "#0067a8", high: "#3fae9a", speed: "#7b5bb5", lost: "#c2185b", limit: "#8a939e", plate: "#c3d0de",
   },
   dark: {
     ...AXES.dark, ink: "#f0f0f0", soft: "#8f98a3", link: "#b9c2cc", joint: "#5d83ad", hand: "#d5dbe2", base: "#626d79",
     lit: "#ffb627", trace: "#ff7cc0", ahead: "#6e4a60", ghost: "#8ba3bd", chosen: "#ffb627", grid: "#39414a",
+    low: "#4d9be6", high: "#5fe0b8", speed: "#b79cf0", lost: "#ff6f9f", limit: "#7d8894", plate: "#7f93a8",
   },
 };
 const FIELD = 28; // degrees
@@ -29,29 +30,26 @@ const GHOST = {
   stencilWrite: true, stencilRef: 1, stencilFunc: THREE.NotEqualStencilFunc, stencilZPass: THREE.ReplaceStencilOp,
 };
 
-/** Directions in which a camera looks well at an arm: from above if it moves in a plane, else from the front right. */
-function seat(picture) {
-  const frames = chain(picture.arm, picture.arm.nominal);
-  const flat = picture.joints.every((i) => Math.abs(column(frames[i], 2)[2]) > 0.999)
-    && picture.joints.every((i) => picture.arm.rows[i - 1][0] === 0);
-  return flat ? [0, -0.75, 1.5] : [0.55, -1, 0.55];
-}
+const TRAIL = 600; // points of the hand's way that are kept
 
 export class View {
-  constructor(stage, arm, { onPick, onHover }) {
+  /** `picture` tells what is drawn in a posture q (see picture.js and parallel.js), `show` what of it is wanted. */
+  constructor(stage, picture, show, handlers) {
     this.stage = stage;
-    this.picture = new Picture(arm);
-    this.show = { frames: new Set(arm.frames), axes: true, normals: true };
-    this.q = arm.nominal;
+    this.picture = picture;
+    this.show = show;
+    this.q = picture.start;
     this.lit = null;
     this.ghosts = [];
     this.trace = { points: [], done: 0 };
+    this.trail = [];
     this.step = null; // {row, share}: the moves of a row under way
     this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true, stencil: true, preserveDrawingBuffer: true });
     this.renderer.shadowMap.enabled = true;
     this.canvas = this.renderer.domElement;
     stage.prepend(this.canvas);
     this.labels = new Labels(stage.querySelector(".labels"));
+    this.grip = stage.querySelector(".grip");
     this.scene = new THREE.Scene();
     this.front = new THREE.Scene(); // frames and lengths, which no body hides
     this.renderer.autoClear = false;
@@ -64,12 +62,16 @@ export class View {
     this.lines = new Solids(new THREE.MeshBasicMaterial());
     this.front.add(this.lines);
     this.drawn = this.#add(new Solids(new THREE.MeshBasicMaterial()));
+    this.trailed = this.#add(new Solids(new THREE.MeshBasicMaterial()));
+    this.speeds = this.#add(new Solids(new THREE.MeshStandardMaterial({ transparent: true, opacity: 0.4, roughness: 0.8, depthWrite: false })));
+    this.speeds.renderOrder = 4;
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.enableZoom = false; // until the picture has the focus: the wheel belongs to the page
     this.controls.enablePan = false;
     this.controls.addEventListener("change", () => this.draw());
     this.canvas.style.touchAction = "pan-y";
-    this.#listen(onPick, onHover);
+    this.#listen(handlers);
+    if (picture.cloud?.length) this.#spread(picture.cloud);
   }
 
   #add(object) {
@@ -87,9 +89,31 @@ export class View {
     sun.shadow.radius = 5;
     sun.shadow.bias = -0.0005;
     Object.assign(sun.shadow.camera, { left: -1.3 * unit, right: 1.3 * unit, top: 1.3 * unit, bottom: -1.3 * unit, near: 0.1 * unit, far: 6 * unit });
-    this.ground = this.#add(new THREE.Mesh(new THREE.CircleGeometry(3 * unit, 48), new THREE.ShadowMaterial({ opacity: 0.16 })));
+    this.ground = this.#add(new THREE.Mesh(new THREE.CircleGeometry(3 * unit, 48), new THREE.ShadowMaterial({ opacity: 0.16, depthWrite: false })));
     this.ground.position.z = drop;
     this.ground.receiveShadow = true;
+  }
+
+  /** The points that the hand reaches, lower ones darker: three numbers each, in one array. */
+  #spread(points) {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
+    geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(points.length), 3));
+    this.cloud = this.#add(new THREE.Points(geometry, new THREE.PointsMaterial({
+      size: 2.2, sizeAttenuation: false, vertexColors: true, transparent: true, opacity: 0.5, depthWrite: false,
+    })));
+    this.cloud.renderOrder = 5;
+    geometry.computeBoundingBox();
+  }
+
+  #paintCloud() {
+    const { geometry } = this.cloud, { min, max } = geometry.boundingBox, places = geometry.attributes.position, shades = geometry.attributes.color;
+    const [low, high, shade] = [new THREE.Color(this.colours.low), new THREE.Color(this.colours.high), new THREE.Color()];
+    for (let i = 0; i < places.count; i++) {
+      shade.lerpColors(low, high, (places.getZ(i) - min.z) / (max.z - min.z || 1));
+      shades.setXYZ(i, shade.r, shade.g, shade.b);
+    }
+    shades.needsUpdate = true;
   }
 
   #grid() {
@@ -107,12 +131,15 @@ export class View {
   set theme(name) {
     this.colours = THEMES[name];
     this.#grid();
+    if (this.cloud) this.#paintCloud();
     this.setGhosts(this.ghosts.map((ghost) => ghost.q));
+    this.#drawTrail();
     this.#drawTrace();
     this.update();
   }
 
-  #listen(onPick, onHover) {
+  #listen({ onPick, onHover, onGrab, onDrag, onDrop, onNudge }) {
+    this.#grip({ onGrab, onDrag, onDrop, onNudge });
     const { canvas, controls } = this;
     canvas.tabIndex = 0;
     canvas.addEventListener("webglcontextrestored", () => this.draw()); // a browser may take it away from a scene out of sight
@@ -143,6 +170,57 @@ export class View {
       onHover(ghost);
     });
     canvas.addEventListener("pointerleave", () => onHover(null));
+  }
+
+  /** The handle over the hand: an element, so that the keyboard and a finger find it too. */
+  #grip({ onGrab, onDrag, onDrop, onNudge }) {
+    const { grip } = this;
+    let held = null;
+    grip.addEventListener("pointerdown", (event) => {
+      grip.setPointerCapture(event.pointerId);
+      const middle = this.project(this.picture.handle(this.q)), box = this.canvas.getBoundingClientRect();
+      held = [event.clientX - box.left - middle.x, event.clientY - box.top - middle.y];
+      this.dragged = true;
+      onGrab();
+    });
+    grip.addEventListener("pointermove", (event) => {
+      if (!held) return;
+      const box = this.canvas.getBoundingClientRect();
+      const to = this.#under(event.clientX - box.left - held[0], event.clientY - box.top - held[1]);
+      if (to) onDrag(to);
+    });
+    const drop = () => {
+      if (!held) return;
+      held = this.dragged = null;
+      onDrop();
+      this.#keepInView();
+      this.draw();
+    };
+    for (const event of ["pointerup", "pointercancel", "lostpointercapture"]) grip.addEventListener(event, drop);
+    grip.addEventListener("keydown", (event) => {
+      const ways = { ArrowLeft: [-1, 0, 0], ArrowRight: [1, 0, 0], ArrowUp: [0, 1, 0], ArrowDown: [0, -1, 0], PageUp: [0, 0, -1], PageDown: [0, 0, 1] };
+      if (!(event.key in ways)) return;
+      event.preventDefault();
+      event.stopPropagation(); // a notebook would move to another cell
+      const step = 0.01 * this.picture.unit, way = new THREE.Vector3(...ways[event.key]).applyQuaternion(this.camera.quaternion);
+      if (this.picture.flat) way.setZ(0);
+      onNudge(way.setLength(step).toArray());
+    });
+  }
+
+  /** The place under a point of the picture, as far away as the hand; on its level, for a robot that moves in a plane. */
+  #under(x, y) {
+    const ray = new THREE.Raycaster();
+    ray.setFromCamera(new THREE.Vector2((2 * x) / this.width - 1, 1 - (2 * y) / this.height), this.camera);
+    const across = this.picture.flat ? new THREE.Vector3(0, 0, 1) : this.camera.getWorldDirection(new THREE.Vector3());
+    const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(across, new THREE.Vector3(...this.picture.handle(this.q)));
+    return ray.ray.intersectPlane(plane, new THREE.Vector3())?.toArray() ?? null;
+  }
+
+  /** Where a point lies in the picture, in its pixels, and whether it is before the camera. */
+  project(point) {
+    const { x, y, z } = new THREE.Vector3(...point).project(this.camera);
+    return { x: ((x + 1) / 2) * this.width, y: ((1 - y) / 2) * this.height, seen: z < 1 };
   }
 
   /** The number of the ghost under a pointer, or null; the robot itself hides what lies behind it. */
@@ -182,14 +260,18 @@ export class View {
   /** Look at the robot, its ghosts and its path as a whole, from the seat it is best seen from. */
   home() {
     const { picture } = this;
-    const postures = [this.q, ...this.ghosts.map((ghost) => ghost.q)];
+    const postures = [this.q, ...this.ghosts.flatMap((ghost) => (ghost.q ? [ghost.q] : []))];
     const points = [...postures.flatMap((q) => picture.outline(q)), ...this.trace.points, ...this.marks.map((mark) => mark.at)];
     const corners = points.map((point) => new THREE.Vector3(...point));
+    if (this.cloud && this.show.cloud) {
+      const { min, max } = this.cloud.geometry.boundingBox;
+      for (const k of [0, 1, 2, 3, 4, 5, 6, 7]) corners.push(new THREE.Vector3(...["x", "y", "z"].map((axis, i) => (k & (1 << i) ? max : min)[axis])));
+    }
     const box = new THREE.Box3().setFromPoints(corners), { target } = this.controls;
     box.getCenter(target);
     let far = 4 * box.getSize(new THREE.Vector3()).length();
     for (let round = 0; round < 6; round++) {
-      this.camera.position.copy(target).add(new THREE.Vector3(...seat(picture)).setLength(far));
+      this.camera.position.copy(target).add(new THREE.Vector3(...picture.seat).setLength(far));
       this.camera.lookAt(target);
       this.camera.updateMatrixWorld();
       const seen = new THREE.Box3().setFromPoints(corners.map((corner) => corner.clone().project(this.camera)));
@@ -199,13 +281,30 @@ export class View {
       target.addScaledVector(right, middle.x * scale * this.camera.aspect).addScaledVector(up, middle.y * scale);
       far = Math.max((far * Math.max(size.x, size.y)) / 2 / FILLED, 1.2 * picture.unit);
     }
-    this.#stand(new THREE.Vector3(...seat(picture)).setLength(far));
+    this.#stand(new THREE.Vector3(...picture.seat).setLength(far));
   }
 
   setPosture(q) {
+    const from = this.picture.handle(this.q), to = this.picture.handle(q), pace = 0.006 * this.picture.unit;
     this.q = q;
+    if (this.show.trace && this.width) {
+      if (!this.trail.length) this.trail.push(from);
+      if (norm(subtract(to, this.trail.at(-1))) > pace) this.trail = [...this.trail, to].slice(-TRAIL);
+      this.#drawTrail();
+    }
     this.update();
-    this.#keepInView();
+    if (!this.dragged) this.#keepInView();
+  }
+
+  /** Forget the way of the hand so far. */
+  clearTrail() {
+    this.trail = [];
+    this.#drawTrail();
+  }
+
+  #drawTrail() {
+    const width = 0.005 * this.picture.unit;
+    this.trailed.draw(this.trail.slice(1).map((end, i) => tube(this.trail[i], end, width, this.colours.trace)));
   }
 
   /** Step back where the moving arm would leave the picture; never jump forward again. */
@@ -225,22 +324,29 @@ export class View {
     this.controls.update();
   }
 
+  /** Postures beside the robot; null stands for one that is out of reach. */
   setGhosts(postures) {
-    for (const ghost of this.ghosts) {
+    for (const ghost of this.ghosts.splice(postures.length)) {
       for (const part of [ghost.solids, ghost.depth]) {
         this.scene.remove(part);
         part.dispose();
       }
     }
-    this.ghosts = postures.map((q) => {
+    while (this.ghosts.length < postures.length) {
       // Its depth first, unseen: otherwise its own parts would shine through one another.
       const depth = this.#add(new Solids(new THREE.MeshBasicMaterial({ colorWrite: false })));
       const solids = this.#add(new Solids(new THREE.MeshStandardMaterial(GHOST)));
       depth.renderOrder = 1;
       solids.renderOrder = 3;
-      const frames = chain(this.picture.arm, q);
-      for (const part of [depth, solids]) part.draw(this.picture.ghost(frames, this.colours.ghost));
-      return { q, solids, depth, elbow: this.picture.elbow(frames) };
+      this.ghosts.push({ solids, depth });
+    }
+    postures.forEach((q, i) => {
+      const ghost = this.ghosts[i];
+      ghost.q = q;
+      if (!q) return;
+      const pose = this.picture.pose(q);
+      for (const part of [ghost.depth, ghost.solids]) part.draw(this.picture.ghost(pose, this.colours.ghost));
+      ghost.elbow = this.picture.elbow(pose);
     });
     this.update();
   }
@@ -281,28 +387,24 @@ export class View {
   /** Build what depends on the posture, and draw. */
   update() {
     if (!this.colours) return;
-    const { picture, q, colours } = this, frames = chain(picture.arm, q);
-    const shown = this.step ? [this.step.row, this.step.row + 1] : [...this.show.frames];
-    const nothing = { solids: [], labels: [] };
-    const axes = this.show.axes ? picture.axes(frames, shown, colours) : nothing;
-    const normals = this.show.normals ? picture.normals(frames, q, colours) : nothing;
-    const parts = [picture.frames(frames, shown, colours), normals];
-    this.arm.draw(picture.body(frames, colours, this.lit));
-    const walker = this.step ? picture.walker(walk(picture.arm, q, this.step.row, this.step.share), colours) : [];
-    this.lines.draw([...parts.flatMap((part) => part.solids), ...walker]);
-    this.axes.draw(axes.solids);
-    this.marks = [...this.#numbers(), ...parts.flatMap((part) => part.labels), ...axes.labels];
-    for (const ghost of this.ghosts) {
-      const here = ghost.q.every((value, i) => Math.abs(value - q[i]) < 1e-6);
-      ghost.solids.visible = ghost.depth.visible = !here;
-    }
+    const { picture, q, colours } = this, pose = picture.pose(q);
+    const { front, labels, axes, speeds } = picture.scenery(pose, q, this.show, this.step, colours);
+    this.arm.draw(picture.body(pose, colours, this.lit));
+    this.lines.draw(front);
+    this.axes.draw(axes);
+    this.speeds.draw(speeds);
+    for (const ghost of this.ghosts) ghost.solids.visible = ghost.depth.visible = Boolean(ghost.q) && !picture.same(ghost.q, q);
+    if (this.cloud) this.cloud.visible = Boolean(this.show.cloud);
+    this.trailed.visible = Boolean(this.show.trace);
+    this.marks = [...this.#numbers(), ...labels];
     this.draw();
   }
 
   /** Numbers of the ghosts at their elbows, of those that share one together. */
   #numbers() {
     const places = new Map();
-    this.ghosts.forEach(({ elbow }, i) => {
+    this.ghosts.forEach(({ q, elbow }, i) => {
+      if (!q) return;
       const key = elbow.map((x) => Math.round((50 * x) / this.picture.unit)).join();
       places.set(key, { elbow, owners: [...(places.get(key)?.owners ?? []), i + 1] });
     });
@@ -325,17 +427,15 @@ export class View {
   }
 
   #placeLabels() {
-    const project = (point) => {
-      const { x, y, z } = new THREE.Vector3(...point).project(this.camera);
-      return { x: ((x + 1) / 2) * this.width, y: ((1 - y) / 2) * this.height, seen: z < 1 };
-    };
     const placed = this.marks.flatMap((mark) => {
-      const here = project(mark.at), there = project(add(mark.at, mark.way ?? mark.across, 0.05));
+      const here = this.project(mark.at), there = this.project(add(mark.at, mark.way ?? mark.across, 0.05));
       const lean = Math.atan2(there.y - here.y, there.x - here.x);
       const heading = mark.way ? lean : lean - Math.PI / 2;
       return here.seen ? [{ ...mark, x: here.x, y: here.y, heading }] : [];
     });
-    this.labels.show(placed, this.width, this.height, [CORNER(this.width)]);
+    const hand = this.project(this.picture.handle(this.q));
+    this.grip.style.transform = `translate(${hand.x}px, ${hand.y}px)`;
+    this.labels.show(placed, this.width, this.height, [CORNER(this.width), { x: hand.x, y: hand.y, w: 22, h: 22 }]);
   }
 
   resize(width, height) {
@@ -353,8 +453,10 @@ export class View {
   dispose() {
     cancelAnimationFrame(this.pending);
     this.controls.dispose();
-    for (const part of [this.arm, this.axes, this.lines, this.drawn, ...this.ghosts.flatMap((ghost) => [ghost.solids, ghost.depth])]) part.dispose();
+    for (const part of [this.arm, this.axes, this.lines, this.drawn, this.trailed, this.speeds, ...this.ghosts.flatMap((ghost) => [ghost.solids, ghost.depth])]) part.dispose();
     this.grid?.dispose();
+    this.cloud?.geometry.dispose();
+    this.cloud?.material.dispose();
     this.renderer.dispose();
     this.renderer.forceContextLoss(); // a browser gives out only a few
   }

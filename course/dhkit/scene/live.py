@@ -1,0 +1,74 @@
+"""What all scenes share: a widget where somebody watches, a page of its own, and a still drawing beside them."""
+
+from __future__ import annotations
+
+import base64
+import os
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+from ..watched import is_watched
+from .page import write_page
+
+
+class Live:
+    """A picture that moves in the reader's browser, with a still drawing in its place where none does."""
+
+    title: str
+    _widget: Any = None
+
+    def state(self) -> dict[str, Any]:
+        """All that the browser needs, as JSON holds it."""
+        raise NotImplementedError
+
+    def _draw(self) -> Any:
+        """The still drawing: a Matplotlib Axes."""
+        raise NotImplementedError
+
+    def _make_widget(self) -> Any:
+        """The widget; ImportError where anywidget is not installed."""
+        raise NotImplementedError
+
+    def _in_words(self) -> str:
+        raise NotImplementedError
+
+    def save(self, file: str | os.PathLike[str]) -> None:
+        """Write a page with the scene as it stands, which needs neither Python nor a network.
+
+        Parameters
+        ----------
+        file : path
+            For instance ``"arm.html"``.
+        """
+        Path(file).write_text(write_page(self.title or "Robot", self.state()), encoding="utf-8")
+
+    def still(self) -> bytes:
+        """The still drawing, as PNG."""
+        import matplotlib.pyplot as plt
+
+        ax = self._draw()
+        buffer = BytesIO()
+        ax.figure.savefig(buffer, format="png", dpi=90, bbox_inches="tight")
+        plt.close(ax.figure)
+        return buffer.getvalue()
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
+        """The widget with the still drawing beside it, for a printed notebook or a kernel without widgets."""
+        bundle: dict[str, Any] = {
+            "text/plain": self._in_words(),
+            "image/png": base64.b64encode(self.still()).decode(),
+        }
+        if (widget := self._live()) is not None:
+            view = {"version_major": 2, "version_minor": 0, "model_id": widget.model_id}
+            bundle["application/vnd.jupyter.widget-view+json"] = view
+        return bundle
+
+    def _live(self) -> Any:
+        """The widget, made at first use; None where there is none."""
+        if self._widget is None and is_watched():
+            try:
+                self._widget = self._make_widget()
+            except ImportError:
+                return None
+        return self._widget
