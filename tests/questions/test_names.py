@@ -36,11 +36,11 @@ ONCE_MISNAMED = {
         "sign_of_yaw",
         "pitch or the yaw",
     ),
-    "inverse without transposing": (
+    "inverse of the inverse": (
         "transforms.inverse",
-        lambda T: T[:3, :3].T.row_join(T[:3, 3]).col_join(T[3, :]),
-        "inverse_with_unturned_position+not_inverted",
-        "position is right",
+        lambda T: sympy.Matrix(T).inv().tolist(),
+        "other_way_round",
+        "seen from the part",
     ),
     "the back forgotten on the limit": (
         "inverse_models.counts",

@@ -19,15 +19,15 @@ from autograder.judge.misconceptions import (
     transposed_rotation,
 )
 from autograder.judge.steps import replace_entry
-from dhm.transforms import rigid_inverse
+from dhkit.geometry import classic_dh
 
 from .model import (
     CLASSIC,
+    COLLEAGUE,
     COMMUTE,
-    INVERSE,
     MODIFIED,
-    ROWS,
-    SIGNS_TURNED,
+    UNTURNED,
+    UP,
     a,
     acos,
     alpha,
@@ -36,17 +36,26 @@ from .model import (
     d,
     divide,
     draw_matrices,
+    draw_rows,
     failing_atan,
+    failing_calls,
     flat,
     half_turn_forgotten,
     leave_alpha,
     misread_angles,
+    modified_rows,
+    my_dhm,
+    name_row,
     name_twist,
+    positive_root,
     project_by_angle,
     project_on_axis,
     read_parameters,
     see_from_a,
+    see_from_gripper,
     theta,
+    turn_back_only,
+    way,
 )
 
 QUESTIONS = (
@@ -91,26 +100,33 @@ QUESTIONS = (
         reference=COMMUTE,
         mistakes=(
             mistake(
-                "translations_do_not_commute",
+                "screws_do_not_commute",
                 0.6,
-                "**Two shifts are missing among the pairs that may be exchanged.** Neither of them turns anything: does it matter "
-                "which one you walk first?",
+                "**Two pairs along and about one and the same line are not all found.** Whoever walks along a line and turns about it, in "
+                "whatever order and however often, ends at the same place of it.",
                 replace_entry(1, 0),
+                replace_entry(4, 0),
+            ),
+            mistake(
+                "half_turns_do_not_commute",
+                0.6,
+                "**One pair that may be exchanged is missing.** Turns about different axes do not commute *in general*: do these two? Multiply "
+                "them both ways round, or turn a book.",
+                replace_entry(2, 0),
             ),
             mistake(
                 "rotations_commute",
                 0.3,
-                "**Turns about two different axes do not commute.** Turn a book by a quarter about its long edge, then about its "
-                "spine; now the other way round.",
-                replace_entry(4, 1),
+                "**Two turns about parallel lines do not commute.** Their angles add up both ways round, but where does the origin end?",
+                replace_entry(0, 1),
             ),
             mistake(
                 "translation_and_rotation_commute",
                 0.3,
-                "**A turn changes the direction in which a later shift goes**, unless it turns about that very direction.",
-                replace_entry(2, 1),
+                "**A turn changes the direction in which a later shift goes**, unless it turns about that very direction. A half turn reverses it.",
                 replace_entry(3, 1),
-                lambda found: [*found[:2], 1, 1, *found[4:]],
+                replace_entry(5, 1),
+                lambda found: [*found[:3], 1, found[4], 1],
             ),
         ),
         places=False,
@@ -142,27 +158,56 @@ QUESTIONS = (
     ),
     Question(
         "transforms.inverse",
-        reference=INVERSE,
+        reference=see_from_gripper,
         mistakes=(
-            inverse_by_transposing(),
-            inverse_keeps_position(),
-            transposed_rotation(
-                share=0.5,
-                feedback="**The position is right, the rotation is not inverted.** Your rotation block still leads from frame i-1 to frame i: what "
-                "is the inverse of a rotation?",
-                note="rotation_not_inverted",
+            mistake(
+                "hand_not_inverted",
+                0.3,
+                "**The way from the base to the gripper is taken as it is.** The walk begins at the gripper: this first piece is known the other "
+                "way round only.",
+                wrong={"back": np.array},
+            ),
+            inverse_by_transposing(wrong={"back": np.transpose}, share=0.4),
+            inverse_keeps_position(
+                wrong={"back": turn_back_only},
+                feedback="**The position of the inverse is not turned.** It tells where the base lies, seen along the axes of the *gripper*.",
             ),
             mistake(
-                "signs_turned_order_kept",
+                "seen_from_the_base",
+                0.3,
+                "**This is the part seen from the base.** The robot knows it then, but not yet how far the gripper is from it.",
+                wrong={"order": lambda back, camera, part: way(camera, part)},
+            ),
+            mistake(
+                "reversed_product",
+                0.3,
+                "**The transforms are multiplied in the reverse order.** Inner letters must meet: gripper to base, base to camera, camera to part.",
+                wrong={"order": lambda back, camera, part: way(part, camera, back)},
+            ),
+            mistake(
+                "other_way_round",
+                0.6,
+                "**This is the gripper seen from the part.** Asked is the part seen from the gripper: the last column should hold the way that "
+                "the gripper still has to go.",
+                wrong={"order": lambda back, camera, part: np.linalg.inv(way(back, camera, part)).tolist()},
+            ),
+            mistake(
+                "camera_inverted",
                 0.4,
-                "**The four signs are turned, but the order is kept.** Who puts on socks and then shoes, takes off the shoes first.",
-                lambda _: SIGNS_TURNED,
+                "**The camera is taken the other way round.** Its place is given in frame 0: that is the way from the base to the camera already.",
+                wrong={"order": lambda back, camera, part: way(back, np.linalg.inv(camera), part)},
             ),
             mistake(
-                "not_inverted",
-                0.1,
-                "**This is the way from frame i-1 to frame i itself.** The way back is asked for.",
-                rigid_inverse,
+                "camera_looks_up",
+                0.5,
+                "**The axes of the camera are not those told.** Write X_C and Z_C as columns, in frame 0; the third column follows from them.",
+                wrong=[{"looks": UP}, {"looks": UNTURNED}],
+            ),
+            mistake(
+                "degrees",
+                0.5,
+                "**The angles are taken in radians.** They are given in degrees: cos and sin want `np.radians` of them.",
+                wrong={"unit": 1.0},
             ),
         ),
     ),
@@ -219,8 +264,85 @@ QUESTIONS = (
         ),
     ),
     Question(
+        "transforms.bug",
+        reference=failing_calls,
+        mistakes=(
+            mistake(
+                "untilted_slide_blamed",
+                0.5,
+                "**One of your calls is right.** The slide of its joint stands in the wrong place of the function, but this axis is not tilted: "
+                "what is the sine of its twist?",
+                wrong={"taken": 4, "left": 5},
+            ),
+            mistake(
+                "slide_at_zero_blamed",
+                0.5,
+                "**One of your calls is right.** A joint that has not moved cannot show that its slide is forgotten.",
+                wrong={"taken": 6, "left": 5},
+            ),
+            mistake(
+                "half_turn_blamed",
+                0.5,
+                "**One of your calls is right.** A half turn has the cosine -1 and the sine 0: the root gives that as well.",
+                wrong=[{"taken": 7, "left": left} for left in (2, 3, 5)],
+            ),
+            mistake(
+                "counted_from_zero",
+                0.7,
+                "**The calls are counted from 0.** The list that is printed counts from 1.",
+                lambda found: [number - 1 for number in found],
+            ),
+        ),
+        partial=0.3,
+        places=False,
+    ),
+    Question(
+        "transforms.my_dhm",
+        reference=my_dhm,
+        mistakes=(
+            mistake(
+                "faults_not_mended",
+                0.1,
+                "**This is the function of question 7 as it stands.** It fails at three of the eight calls: mend what fails there.",
+                wrong=COLLEAGUE,
+            ),
+            mistake(
+                "sine_of_the_twist_by_a_root",
+                0.6,
+                "**With a negative twist the function is wrong.** A square root is never negative. The sine of a negative angle?",
+                wrong={"sine": positive_root},
+            ),
+            mistake(
+                "constant_of_theta_forgotten",
+                0.6,
+                "**The constant theta of a turning joint is forgotten.** Its angle is that constant *and* the joint value.",
+                wrong={"constant": False},
+            ),
+            mistake(
+                "slide_forgotten_in_one_entry",
+                0.6,
+                "**A joint that slides along a tilted axis comes out wrong.** The last column holds d in two places: both take the slide.",
+                wrong={"slid": False},
+            ),
+            mistake(
+                "sigma_not_read",
+                0.4,
+                "**Every joint turns.** sigma tells which of the two constants of a row the joint value is added to.",
+                wrong={"reads_sigma": False},
+            ),
+            mistake(
+                "classic_matrix",
+                0.3,
+                "**This is the matrix of the classic convention.** Here a row begins with the walk along and about X.",
+                wrong={"matrix": classic_dh},
+            ),
+        ),
+        probe=draw_rows,
+        case=name_row,
+    ),
+    Question(
         "transforms.convert",
-        reference=ROWS,
+        reference=modified_rows,
         mistakes=(
             classic_table(
                 feedback="**The classic rows were copied.** In the modified table row i holds a and alpha of the link *before* "

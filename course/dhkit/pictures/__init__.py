@@ -56,7 +56,7 @@ from .tables import (
     show_planar,
     show_table,
 )
-from .transforms import show_classic_matrix, show_parameters, show_point, show_walk, show_way_back
+from .transforms import show_classic_matrix, show_own_dhm, show_parameters, show_point, show_walk, show_way_to_part
 from .workspace import show_area, show_cloud, show_count, show_point_function, show_reach_range, show_section
 
 __all__ = [
@@ -95,6 +95,7 @@ __all__ = [
     "show_on_s600",
     "show_on_scara",
     "show_origin",
+    "show_own_dhm",
     "show_parallel_axes",
     "show_parameters",
     "show_pen_inverse",
@@ -125,7 +126,7 @@ __all__ = [
     "show_turned_hand",
     "show_turns",
     "show_walk",
-    "show_way_back",
+    "show_way_to_part",
     "show_wrist",
     "show_wrist_centre",
     "show_wrist_formulas",

@@ -6,10 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..drawing.frames import draw_frames_3d
 from ..drawing.strokes import keep_in_view, write
-from ..drawing.style import INK
+from ..drawing.style import DASHED, INK, SOFT
 from ..drawing.transforms import CLASSIC, MODIFIED, draw_point_in_two_frames, draw_walk, mark_shadow, walk_frames
 from ..drawing.view import fit_3d
+from ..geometry import modified_dh, rigid_transform, rotation
 from .own_result import called, numbers, own_result, say_if_not_rigid
 
 SIZE = 0.5
@@ -62,24 +64,62 @@ def show_walk(arguments, kinds: Sequence[str], values: dict[str, float]):
 
 
 @own_result
-def show_way_back(inverse, values: dict[str, float]):
-    """Show the walk from frame i-1 to frame i, and where the given inverse leads from there.
+def show_way_to_part(transform, mine):
+    """Show base, camera, gripper and part, and where the given transform leads from the gripper.
 
     Parameters
     ----------
-    inverse : 4x4 matrix in a, alpha, d, theta
-    values : dict
-        Numbers for a, d (metres), alpha, theta (radians).
+    transform : 4x4 matrix
+        The part, seen from the gripper.
+    mine : dict
+        The numbers of the statement: lengths in metres, angles in degrees.
 
     Returns
     -------
     matplotlib Axes (3D)
-        The grey shadow belongs on frame i-1.
+        The grey shadow belongs on the frame of the part.
     """
-    back = numbers(inverse, "inverse", (4, 4), values)
-    moves = _moves(MODIFIED, values)
-    ax = _with_shadow(moves, walk_frames(moves)[-1] @ back, "grey: where your inverse leads from frame i")
-    say_if_not_rigid(ax, back)
+    found = numbers(transform, "transform", (4, 4), {})
+    camera = rigid_transform([[0, 1, 0], [1, 0, 0], [0, 0, -1]], [mine[name] for name in ("cx", "cy", "cz")])
+    in_camera = rigid_transform(rotation("z", np.radians(mine["psi"])), [mine[name] for name in "uvw"])
+    gripper = modified_dh(mine["a"], np.radians(mine["alpha"]), mine["d"], np.radians(mine["theta"]))
+    frames = [np.eye(4), camera, gripper, camera @ in_camera]
+    ax = draw_frames_3d(frames, ["0", "C", "G", "P"], size=0.25, links=False)
+    for start, end in ((0, 2), (0, 1), (1, 3)):
+        ax.plot(*zip(frames[start][:3, 3], frames[end][:3, 3]), color=SOFT, lw=1, ls=DASHED, zorder=2)
+    mark_shadow(ax, gripper @ found, 0.25)
+    fit_3d(ax, _ends([*frames, gripper @ found], 0.3), own=True, pad=0.3)
+    ax.figure.text(
+        0.5,
+        0.02,
+        "dashed: the ways that are known; grey: where your matrix leads from the gripper",
+        ha="center",
+        fontsize=9,
+    )
+    say_if_not_rigid(ax, found)
+    return ax
+
+
+@own_result
+def show_own_dhm(my_dhm, row: Sequence[float], q: float):
+    """Show the walk of one row at a joint value, and the frame of a function of one's own.
+
+    Parameters
+    ----------
+    my_dhm : function (row, q) -> 4x4 matrix
+    row : [sigma, a, alpha, d, theta]
+    q : float
+
+    Returns
+    -------
+    matplotlib Axes (3D)
+        The grey shadow belongs on frame i.
+    """
+    frame = numbers(called(my_dhm, list(row), q), "my_dhm", (4, 4), {})
+    sigma, a, alpha, d, theta = row
+    values = {"a": a, "alpha": alpha, "d": d + sigma * q, "theta": theta + (1 - sigma) * q}
+    ax = _with_shadow(_moves(MODIFIED, values), frame, "colour: the walk of the row; grey: your function")
+    say_if_not_rigid(ax, frame)
     return ax
 
 
@@ -134,9 +174,11 @@ def _with_shadow(moves, shadow, caption):
     """A walk, and a frame as a grey shadow, both in view."""
     ax = draw_walk(moves, size=SIZE)
     mark_shadow(ax, shadow, SIZE)
-    shown = np.vstack(
-        [frame[:3, 3] + reach * frame[:3, :3].T for frame in (*walk_frames(moves), shadow) for reach in (0, 0.75)]
-    )
-    fit_3d(ax, shown, own=True, pad=0.4)
+    fit_3d(ax, _ends([*walk_frames(moves), shadow], 0.75), own=True, pad=0.4)
     ax.figure.text(0.5, 0.02, caption, ha="center", fontsize=9)
     return ax
+
+
+def _ends(frames, size):
+    """Origins of frames and the tips of their axes, shape (n, 3)."""
+    return np.vstack([frame[:3, 3] + reach * frame[:3, :3].T for frame in frames for reach in (0, size)])
