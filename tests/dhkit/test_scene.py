@@ -17,7 +17,7 @@ import pytest
 import sympy
 
 from dhkit.geometry import modified_dh
-from dhkit.scene import Scene
+from dhkit.scene import ParallelScene, Scene
 from dhkit.scene.page import script
 
 ROOT = Path(__file__).parents[2]
@@ -432,6 +432,57 @@ def test_a_singular_posture_names_what_is_lost_and_what_is_free(catalogue, name,
         assert np.abs(np.dot(lost[0]["way"], way)) == pytest.approx(1, abs=1e-3)
     if free is not None:
         assert words == [free]
+
+
+@pytest.fixture(scope="module")
+def robots():
+    return pytest.importorskip("autograder.reference", reason="the kit alone is installed").robots
+
+
+def test_modes_in_the_browser_are_those_of_the_reference_solver(robots):
+    lecture = [[0, 0], [1, 0], [0.3, 0.6]], [[-0.2, -0.2], [0.2, -0.2], [0.1, 0.3]]
+    robot, rng = robots.ThreeRPR(*lecture), np.random.default_rng(4)
+    lengths = np.vstack([robot.inverse(rng.uniform((0, 0, -3), (1, 1, 3), (30, 3))), [[1.0, 0.5, 0.9]]])
+    given = {"base": robot.base.tolist(), "platform": robot.platform.tolist(), "lengths": lengths.tolist()}
+    found = in_node("given.lengths.map((each) => dhkitScene.modes(given.base, given.platform, each))", given)
+    answer = robot.forward(lengths)
+    for poses, values, exists in zip(found, answer.values, answer.exists):
+        assert np.reshape(poses, (-1, 3)) == pytest.approx(values[exists], abs=1e-9)
+    assert len(found[-1]) == 6
+    singular = in_node(
+        "given.poses.map((pose) => dhkitScene.determinant(given.base, given.platform, pose))",
+        given | {"poses": found[-1]},
+    )
+    assert singular == pytest.approx(np.linalg.det(robot.jacobian(found[-1])), abs=1e-9)
+
+
+def test_drives_in_the_browser_are_those_of_the_reference_solver(robots):
+    robot, rng = robots.THREE_RRR, np.random.default_rng(5)
+    poses = rng.uniform((0.35, 0.35, -0.4), (0.6, 0.6, 0.4), (20, 3))
+    bars = [robot.proximal[0], robot.distal[0]]
+    for signs, place in (((1, 1, 1), 0), ((1, -1, -1), 3)):
+        legs = ParallelScene(robot.base, robot.platform, poses[0], bars, elbows=signs).state()["legs"]
+        found = in_node(
+            "given.poses.map((pose) => dhkitScene.drivesAt(given.legs, pose))", {"legs": legs, "poses": poses.tolist()}
+        )
+        turns = np.array(found) - robot.inverse(poses).values[:, place, ::2]
+        assert np.abs(np.arctan2(np.sin(turns), np.cos(turns))).max() < 1e-9
+
+
+def test_a_parallel_scene_is_told_its_pose_and_tells_its_drives(watched, robots):
+    scene = ParallelScene(robots.THREE_RPR.base, robots.THREE_RPR.platform, (0.55, 0.6, 0.35))
+    bundle = scene._repr_mimebundle_()
+    assert WIDGET in bundle and base64.b64decode(bundle["image/png"]).startswith(PNG)
+    scene.pose = [0.5, 0.5, 0.1]
+    assert scene._widget.pose == [0.5, 0.5, 0.1]
+    scene._widget.set_state({"pose": [0.6, 0.5, 0.2]})
+    assert scene.pose == [0.6, 0.5, 0.2]
+    assert scene.drives == pytest.approx(robots.THREE_RPR.inverse(scene.pose))
+    folded = ParallelScene(robots.THREE_RRR.base, robots.THREE_RRR.platform, (0.5, 0.45, 0.2), (0.4, 0.4))
+    assert folded.still().startswith(PNG)
+    with pytest.raises(ValueError, match=r"leg \d would have to span .* its bars reach from 0.000 to 0.800 m"):
+        folded.pose = (3, 0, 0)
+    assert folded.pose == [0.5, 0.45, 0.2]
 
 
 def test_labels_never_hide_each_other():

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import sympy
 
-from dhkit.scene import Scene
+from dhkit.scene import ParallelScene, Scene
 
 websocket = pytest.importorskip("websocket", reason="websocket-client, which speaks to the browser, is not installed")
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -292,6 +292,31 @@ def test_a_cloud_is_drawn_light_and_dark_and_hidden(show):
         assert shares(tab.picture(), with_cloud) > 0.01
         pictures.append(with_cloud)
     assert shares(*pictures) > 0.1
+
+
+def test_a_platform_is_led_by_its_legs_and_by_the_pointer(show):
+    base, platform = [[0, 0], [1, 0], [0.3, 0.6]], [[-0.2, -0.2], [0.2, -0.2], [0.1, 0.3]]
+    tab = show(ParallelScene(base, platform, (0.55, 0.6, 0.35)))
+    before = tab.picture()
+    assert (before[..., 3] > 0).mean() > 0.05
+    legs = numbers(tab.ask(READOUTS))[:3]
+    tab.drag(*tab.ask(GRIP), by=(40, 50))
+    assert shares(tab.picture(), before) > 0.02
+    assert np.abs(np.subtract(numbers(tab.ask(READOUTS))[:3], legs)).max() > 0.05
+    # A leg by its keys; the other modes are ghosts, and the one that is chosen keeps the legs.
+    tab.ask("root.querySelector('input[type=range]').focus()")
+    first = numbers(tab.ask(READOUTS))[0]
+    tab.press("ArrowRight", 3)
+    legs = numbers(tab.ask(READOUTS))[:3]
+    assert legs[0] == pytest.approx(first + 0.03, abs=0.011)
+    count = tab.ask("root.querySelectorAll('[aria-label=modes] button').length")
+    assert count >= 2
+    tab.ask(
+        "[...root.querySelectorAll('[aria-label=modes] button')].find((one) => one.ariaPressed === 'false').click()"
+    )
+    where = tab.ask(HAND)
+    tab.until(f"{HAND} !== {json.dumps(where)}")
+    assert numbers(tab.ask(READOUTS))[:3] == pytest.approx(legs, abs=0.002)
 
 
 def test_frames_per_second_are_told(show, capsys):

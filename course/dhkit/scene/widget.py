@@ -7,11 +7,13 @@ import traitlets
 
 from .page import script
 
+PROGRAM = script() + "export default dhkitScene.default;"
+
 
 class SceneWidget(anywidget.AnyWidget):
     """What kernel and browser share of a scene: see `Scene.state`."""
 
-    _esm = script() + "export default dhkitScene.default;"
+    _esm = PROGRAM
     arm = traitlets.Dict().tag(sync=True)
     q: Any = traitlets.List(traitlets.Float()).tag(sync=True)
     ghosts: Any = traitlets.List().tag(sync=True)
@@ -21,3 +23,11 @@ class SceneWidget(anywidget.AnyWidget):
     cloud = traitlets.Bytes().tag(sync=True)
     asked: Any = traitlets.Dict().tag(sync=True)
     answer: Any = traitlets.Dict().tag(sync=True)
+
+
+class ParallelWidget(anywidget.AnyWidget):
+    """What kernel and browser share of a parallel robot: see `ParallelScene.state`."""
+
+    _esm = PROGRAM
+    legs = traitlets.Dict().tag(sync=True)
+    pose: Any = traitlets.List(traitlets.Float()).tag(sync=True)

@@ -246,7 +246,7 @@ function ring(centre, way, radius, width, colour) {
 }
 
 /** An axis of a frame, of the given length and half width: its dashes tell which one it is. */
-function arrow(letter, origin, way, size, width, colour) {
+export function arrow(letter, origin, way, size, width, colour) {
   const dashes = DASHES[letter].map((ends) => ends.map((end) => add(origin, way, 0.8 * size * end)));
   const head = cone(add(origin, way, 0.78 * size), add(origin, way, size), 3.3 * width, colour);
   return [...dashes.map(([from, to]) => tube(from, to, width, colour)), head];

@@ -8,6 +8,7 @@ const GEOMETRIES = {
   ball: () => new THREE.SphereGeometry(1, 24, 16),
   box: () => new THREE.BoxGeometry(2, 2, 2),
   cone: () => new THREE.ConeGeometry(1, 1, 24),
+  prism: () => new THREE.CylinderGeometry(1, 1, 1, 3),
   globe: () => new THREE.SphereGeometry(1, 40, 28),
 };
 
@@ -30,6 +31,15 @@ export function ellipsoid(centre, axes, sizes, colour) {
   const [x, y, z] = axes.map((axis) => new THREE.Vector3(...axis));
   const right = x.clone().cross(y).dot(z) > 0 ? axes : [axes[0], axes[1], axes[2].map((part) => -part)];
   return { kind: "globe", colour, matrix: along(right, sizes, centre) };
+}
+
+/** A triangle of some thickness, level. */
+export function plate(corners, thickness, colour) {
+  const [one, two, three] = corners.map((corner) => new THREE.Vector3(...corner));
+  const upward = two.clone().sub(one).cross(three.clone().sub(one)).z > 0;
+  const centre = one.clone().add(two).add(three).divideScalar(3), z = one.clone().sub(centre), side = upward ? two : three;
+  const x = side.clone().sub(centre).addScaledVector(z, 0.5).multiplyScalar(2 / Math.sqrt(3));
+  return { kind: "prism", colour, matrix: new THREE.Matrix4().makeBasis(x, new THREE.Vector3(0, 0, thickness), z).setPosition(centre) };
 }
 
 /** A group whose contents are set anew at each step: `draw` a list of what the functions above make. */
