@@ -230,6 +230,15 @@ def test_where_nobody_sits_before_the_notebook_there_is_no_widget():
     assert WIDGET not in Scene(SCARA, LENGTHS)._repr_mimebundle_()
 
 
+def test_for_a_site_the_data_come_along(monkeypatch):
+    monkeypatch.setenv("DHKIT_SCENES", "embedded")
+    scene = Scene(SCARA, LENGTHS, title="</script><b>")
+    html = scene._repr_mimebundle_()["text/html"]
+    data = html.partition('<script type="application/json">')[2].removesuffix("</script></div>")
+    assert json.loads(data) == scene.state() and "<" not in data
+    assert WIDGET not in scene._repr_mimebundle_()
+
+
 def test_without_anywidget_the_still_drawing_remains(monkeypatch, watched):
     monkeypatch.setitem(sys.modules, "anywidget", None)
     monkeypatch.delitem(sys.modules, "dhkit.scene.widget", raising=False)

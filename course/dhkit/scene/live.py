@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..watched import is_watched
-from .page import write_page
+from .page import embed, write_page
 
 
 class Live:
@@ -54,14 +54,17 @@ class Live:
         return buffer.getvalue()
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
-        """The widget with the still drawing beside it, for a printed notebook or a kernel without widgets."""
-        bundle: dict[str, Any] = {
-            "text/plain": self._in_words(),
-            "image/png": base64.b64encode(self.still()).decode(),
-        }
+        """The widget with the still drawing beside it, for a printed notebook or a kernel without widgets.
+
+        With ``DHKIT_SCENES=embedded`` in the environment, which the builder of a site sets, the data come along for its pages.
+        """
+        words, picture = self._in_words(), base64.b64encode(self.still()).decode()
+        bundle: dict[str, Any] = {"text/plain": words, "image/png": picture}
         if (widget := self._live()) is not None:
             view = {"version_major": 2, "version_minor": 0, "model_id": widget.model_id}
             bundle["application/vnd.jupyter.widget-view+json"] = view
+        elif os.environ.get("DHKIT_SCENES") == "embedded":
+            bundle["text/html"] = embed(self.state(), picture, words)
         return bundle
 
     def _live(self) -> Any:

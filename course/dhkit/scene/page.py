@@ -1,4 +1,5 @@
-"""A page that holds a scene, its data and its program: nothing is fetched, nothing but that program may run."""
+"""A scene in pages: one that holds it with its data and its program, where nothing is fetched and nothing but that program
+may run; or its data alone, for a page of a site that brings the program along."""
 
 from __future__ import annotations
 
@@ -51,6 +52,25 @@ def write_page(title: str, state: dict[str, Any]) -> str:
     """
     program = script() + "dhkitScene.page();"
     digest = base64.b64encode(hashlib.sha256(program.encode()).digest()).decode()
-    # In JSON a "<" stands in texts only; written like this, none of them can end the element.
-    data = json.dumps(state, allow_nan=False).replace("<", "\\u003c")
-    return _PAGE.format(hash=f"sha256-{digest}", title=html.escape(title), state=data, script=program)
+    return _PAGE.format(hash=f"sha256-{digest}", title=html.escape(title), state=_data(state), script=program)
+
+
+def embed(state: dict[str, Any], picture: str, words: str) -> str:
+    """An element with the still drawing and the data of a scene, which the program of a scene shows as that of a widget.
+
+    Parameters
+    ----------
+    state : dict
+        See `Scene.state`.
+    picture : str
+        The still drawing, PNG in base64.
+    words : str
+        What stands for the picture where none is seen.
+    """
+    still = f'<img src="data:image/png;base64,{picture}" alt="{html.escape(words)}">'
+    return f'<div class="dhkit-scene">{still}<script type="application/json">{_data(state)}</script></div>'
+
+
+def _data(state: dict[str, Any]) -> str:
+    """JSON for a script element: in it a "<" stands in texts only; written like this, none of them can end the element."""
+    return json.dumps(state, allow_nan=False).replace("<", "\\u003c")
