@@ -9,7 +9,7 @@ ENVIRONMENT := --requirement requirements.txt --constraint constraints.txt --edi
 # Processes of a test run start by the hundred: none of them should compile the same modules anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: grade test check lint format lock setup scene lab bench clean bubblewrap
+.PHONY: grade test check lint format lock setup scene lab site bench clean bubblewrap
 
 # The main job, on a sample class (tests/sample_class/write.py without --short writes all of it). Without a sandbox the harmful submissions are left out.
 grade: setup
@@ -51,6 +51,15 @@ scene:
 # JupyterLab on lectures and exercises.
 lab: setup
 	$(BIN)/jupyter lab course/01_parameters.ipynb
+
+# The site, in build/site. Notebooks run again where a cell of theirs has changed, all of them where what they import has.
+site: setup build/imported
+	$(BIN)/sphinx-build --quiet --fail-on-warning --jobs auto -c docs -d build/doctrees . build/site
+	$(BIN)/python docs/check_links.py build/site
+	@echo "the site is in build/site/index.html"
+
+build/imported: $(shell find course/dhkit autograder -name '*.py' -o -name '*.toml' -o -name 'scene.js')
+	@rm -rf build/executed build/doctrees && mkdir -p build && touch $@
 
 # Measurements against peers, as ratios within one run.
 bench: setup .venv-bench/installed

@@ -52,10 +52,14 @@ extensions = [
     "elsewhere",
 ]
 
-myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "dollarmath"]
+myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "dollarmath", "html_image", "substitution"]
+myst_substitutions = {"repository": REPOSITORY or "OWNER/REPOSITORY"}
 myst_heading_anchors = 3
 myst_links_external_new_tab = False
-suppress_warnings = ["mystnb.unknown_mime_type"]  # answers as data, which `check` displays for the grader
+suppress_warnings = [
+    "mystnb.unknown_mime_type",  # answers as data, which `check` displays for the grader
+    "ref.python",  # words such as count in "count of ..." that are attributes of several classes
+]
 
 # Scenes come as a page can show them: see `dhkit.scene`.
 os.environ["DHKIT_SCENES"] = "embedded"
@@ -71,6 +75,7 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # numpydoc sections name the types
 autodoc_default_options = {"members": True, "show-inheritance": True}
 napoleon_google_docstring = False
+napoleon_use_ivar = True
 add_module_names = False
 
 html_theme = "sphinx_book_theme"
@@ -85,13 +90,9 @@ html_theme_options = {
     "use_fullscreen_button": True,
     "use_sidenotes": False,
     "home_page_in_toc": True,
+    "navbar_persistent": [],
     "show_navbar_depth": 1,
     "show_toc_level": 2,
-    "launch_buttons": {
-        "colab_url": "https://colab.research.google.com",
-        "binderhub_url": "https://mybinder.org",
-        "notebook_interface": "jupyterlab",
-    },
 }
 if REPOSITORY:
     html_theme_options |= {
@@ -100,4 +101,9 @@ if REPOSITORY:
         "use_repository_button": True,
         "use_issues_button": True,
         "use_source_button": True,
+        "launch_buttons": {
+            "colab_url": "https://colab.research.google.com",
+            "binderhub_url": "https://mybinder.org",
+            "notebook_interface": "jupyterlab",
+        },
     }

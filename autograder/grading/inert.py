@@ -119,9 +119,14 @@ def _joined(text: object) -> str:
 def formula(source: str, display: Literal["inline", "block"] = "inline") -> str:
     """A formula in LaTeX as MathML, which browsers show without a script and without a network; as it is, if it is none."""
     try:
-        return convert(_NAMES.sub(r"\\mathrm", source), display=display)
+        return convert(_MATRIX.sub(_grouped, _NAMES.sub(r"\\mathrm", source)), display=display)
     except Exception:  # whatever the converter runs into
         return f"<code>{escape(source, quote=False)}</code>"
+
+
+def _grouped(mark: re.Match) -> str:
+    """The begin or end of a matrix, as that of a group: its brackets are as high as it is, not as high as the line."""
+    return f"{{{mark[0]}" if mark[1] == "begin" else f"{mark[0]}}}"
 
 
 class _Renderer(IPythonRenderer):
@@ -222,6 +227,7 @@ _ATTRIBUTES |= {
     "mtd": {"columnalign"},
 }
 _NAMES = re.compile(r"\\operatorname\b\*?")
+_MATRIX = re.compile(r"\\(begin|end)\{[pbBvV]matrix\}")
 _SCHEMES = {"http", "https", "mailto", "data", "attachment"}
 _TAG = re.compile(r"</?\s*([a-zA-Z][^\s/>]*)")
 _LINK = re.compile(r"(https?://|mailto:|#)\S*\Z")

@@ -1,21 +1,33 @@
 """Formulas as MathML in the pages: no script and no network, dark and printed like the text around them."""
 
+from typing import Literal
+
 from docutils import nodes
 from sphinx.application import Sphinx
+from sphinx.util import logging
 from sphinx.util.math import get_node_equation_number
 
 from autograder.grading.inert import formula
 
+LOGGER = logging.getLogger(__name__)
+
+
+def converted(node: nodes.Node, display: Literal["inline", "block"]) -> str:
+    found = formula(node.astext(), display)
+    if not found.startswith("<math"):
+        LOGGER.warning("no formula: %s", node.astext(), location=node)
+    return found
+
 
 def inline(self, node: nodes.math) -> None:
-    self.body.append(formula(node.astext()))
+    self.body.append(converted(node, "inline"))
     raise nodes.SkipNode
 
 
 def block(self, node: nodes.math_block) -> None:
     number = get_node_equation_number(self, node) if node["number"] else ""
     self.body.append(self.starttag(node, "div", CLASS="math"))
-    self.body.append(f"{formula(node.astext(), 'block')}{f'<span class=eqno>({number})</span>' if number else ''}</div>")
+    self.body.append(f"{converted(node, 'block')}{f'<span class=eqno>({number})</span>' if number else ''}</div>")
     raise nodes.SkipNode
 
 

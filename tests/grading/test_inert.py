@@ -63,6 +63,13 @@ def test_formulas_need_no_script():
     assert '<mi mathvariant="normal">a</mi>' in page
 
 
+def test_brackets_are_as_high_as_their_matrix():
+    """MathML stretches them to all that stands in their row."""
+    two = r"\begin{pmatrix} a \\ 1 \end{pmatrix} = \begin{pmatrix} \begin{bmatrix} b \end{bmatrix} \\ 1 \end{pmatrix}"
+    page = clean_markdown(f"$${two}$$")
+    assert page.count("<mrow><mo>(</mo><mtable>") == 2 and page.count("<mrow><mo>[</mo><mtable>") == 1
+
+
 def test_what_is_no_formula_is_shown_as_typed():
     assert "<math" not in clean_markdown("It costs 5 $ and 6 $ more; <math><mi>x</mi></math>.")
     assert "$ and 6 $" in clean_markdown("It costs 5 $ and 6 $ more.")

@@ -233,7 +233,7 @@ class RRArm:
         return float(r.min()), float(r.max())
 
     def sheet_area(self) -> float:
-        """Area by the textbook formula l1 l2 (q1max - q1min) |cos q2min - cos q2max|.
+        """Area by the textbook formula ``l1 l2 (q1max - q1min) |cos q2min - cos q2max|``.
 
         Raises
         ------
