@@ -41,6 +41,11 @@ def recursion(rows: Sequence[DHRow], tool: sp.Matrix) -> list[sp.Matrix]:
     return [below[j] for j in range(len(rows) + 1)]
 
 
+def merged_runs(rows: Sequence[DHRow]) -> sp.Matrix:
+    """The product of rows in textbook form, 4x4."""
+    return recursion(rows, sp.eye(4))[0]
+
+
 def _end_of_parallel_run(rows: Sequence[DHRow], start: int) -> int:
     end = start + 1
     while end < len(rows) and sp.cos(rows[end].alpha) in (1, -1):
