@@ -197,12 +197,13 @@ def _parser() -> argparse.ArgumentParser:
     new = command(
         "new-exercise",
         _new_exercise,
-        "Write an exercise on a robot of your own from its table: questions, references, mistakes, solution notebook.",
+        "Write an exercise on a robot of your own from its table or URDF: questions, mistakes, solution notebook, made students.",
         "autograder new-exercise my_robot.toml && autograder release my_robot",
     )
     new.add_argument(
-        "robot", type=Path, help="file with title, joints, rows [sigma, a, alpha, d, theta], [lengths] and a posture"
+        "robot", type=Path, help="a URDF, or a file with title, joints, rows [sigma, a, alpha, d, theta] and [lengths]"
     )
+    new.add_argument("--title", help="what the robot is called in the texts (default: as its file says)")
     new.add_argument("--name", help="what the exercise is called (default: as the file)")
 
     points = command(
@@ -392,7 +393,7 @@ def _new_exercise(options) -> int:
     from autograder.grading.errors import CourseError
 
     try:
-        written = write_exercise(find_root(options.course), options.robot, options.name)
+        written = write_exercise(find_root(options.course), options.robot, options.name, options.title)
     except ValueError as error:
         raise CourseError(str(error)) from None
     for path in written.files:

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
+from typing import Any
 
 import numpy as np
 
@@ -58,6 +59,8 @@ class Arm:
         Unit vectors of the end effector's frame.
     lengths : dict
         Numbers for the letters, in metres.
+    frame : str
+        The name of the end effector's frame: that of the last joint, or E where constant rows lead on from there.
     """
 
     title: str
@@ -66,6 +69,7 @@ class Arm:
     x: tuple[float, ...]
     z: tuple[float, ...]
     lengths: Mapping[str, float]
+    frame: str
 
     @property
     def letters(self) -> list[str]:
@@ -79,17 +83,16 @@ class Arm:
         known = {"": 1.0, **self.lengths, **values}
         return np.array([sum(factor * known[letter] for letter, factor in entry.items()) for entry in point])
 
-    def _repr_markdown_(self) -> str:
+    def in_words(self) -> str:
+        """Its axes and its end effector in Markdown."""
         rows = (
             f"| {number} | {'slides' if joint.slides else 'turns'}, ${_letter(joint.name)}$ "
             f"| ${said_direction(joint.direction)}$ | ${said_point(joint.point)}$ |"
             for number, joint in enumerate(self.joints, 1)
         )
-        last = len(self.joints)
+        last = self.frame
         return "\n".join(
             [
-                f"Your arm is **{self.title}**. Seen from frame 0, with every turning joint at zero:",
-                "",
                 "| joint | | $Z_i$ points along | and passes through |",
                 "|---|---|---|---|",
                 *rows,
@@ -97,6 +100,11 @@ class Arm:
                 f"The end effector is frame {last}: $O_{last}$ at ${said_point(self.origin)}$, $X_{last}$ along "
                 f"${said_direction(self.x)}$, $Z_{last}$ along ${said_direction(self.z)}$.",
             ]
+        )
+
+    def _repr_markdown_(self) -> str:
+        return (
+            f"Your arm is **{self.title}**. Seen from frame 0, with every turning joint at zero:\n\n{self.in_words()}"
         )
 
 
@@ -109,12 +117,30 @@ def arm_of(mine: Mapping[str, object]) -> Arm:
         What `variant` returns: ``mine.arm`` is its name.
     """
     fields = _arms()[str(mine["arm"])]
-    lengths = {name: float(mine.get(name, number)) for name, number in fields["lengths"].items()}  # type: ignore[arg-type]
+    return arm_from(fields, {name: float(mine.get(name, number)) for name, number in fields["lengths"].items()})  # type: ignore[arg-type]
+
+
+def arm_of_exercise(exercise: str) -> Arm:
+    """The arm of an exercise on one robot, which everybody has."""
+    text = resources.files(__package__).joinpath("questions", f"{exercise}.json").read_text(encoding="utf-8")
+    return arm_from(json.loads(text))
+
+
+def arm_from(fields: Mapping[str, Any], lengths: Mapping[str, float] | None = None) -> Arm:
+    """An arm as a file of the kit has it; `lengths` may replace those of the file."""
     joints = tuple(
         Axis(one["name"], one["slides"], tuple(one["point"]), tuple(one["direction"])) for one in fields["joints"]
     )
     end = fields["end"]
-    return Arm(fields["title"], joints, tuple(end["point"]), tuple(end["x"]), tuple(end["direction"]), lengths)
+    return Arm(
+        fields["title"],
+        joints,
+        tuple(end["point"]),
+        tuple(end["x"]),
+        tuple(end["direction"]),
+        fields["lengths"] if lengths is None else lengths,
+        end.get("frame", str(len(joints))),
+    )
 
 
 @cache

@@ -1,15 +1,27 @@
 """The pool of arms: what the kit shows of them is what their tables say, and can be drawn."""
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from autograder import questions
+from autograder.questions.shared.described import describe
 from autograder.questions.shared.pool import KIT_FILE, arms, for_the_kit
+from autograder.questions.shared.pool import shown as as_shown
 from dhkit.arms import EXTENDED, arm_of
 from dhkit.drawing.arms import draw_arm
 
 
 def test_the_kit_shows_the_arms_of_the_pool():
     assert KIT_FILE.read_text(encoding="utf-8") == for_the_kit(), "python -m autograder.questions.shared.pool"
+
+
+def test_the_kit_shows_the_robot_of_each_exercise_on_one():
+    for file in Path(questions.__file__).parent.glob("*/robot.toml"):
+        kit = KIT_FILE.parent / "questions" / f"{file.parent.name}.json"
+        assert json.loads(kit.read_text(encoding="utf-8")) == as_shown(describe(file.read_text(encoding="utf-8"))), kit
 
 
 @pytest.mark.parametrize("name", arms())

@@ -1,6 +1,6 @@
 """Writes the sample class: a course folder with the submissions of students who never were.
 
-python tests/sample_class/write.py FOLDER [--short] [--harmless]
+python tests/sample_class/write.py FOLDER [--short] [--harmless] [--exercise NAME]
 """
 
 from __future__ import annotations
@@ -83,7 +83,9 @@ def _arguments(step: dict) -> dict:
     return {key: value for key, value in step.items() if key != "do"}
 
 
-def write_class(folder: Path, harmless: bool = False, short: bool = False, sparse: bool = False) -> list[Submission]:
+def write_class(
+    folder: Path, harmless: bool = False, short: bool = False, sparse: bool = False, exercise: str | None = None
+) -> list[Submission]:
     """Make `folder` a course with the sample class in it; an earlier sample class there is replaced.
 
     Parameters
@@ -97,6 +99,8 @@ def write_class(folder: Path, harmless: bool = False, short: bool = False, spars
     sparse : bool
         Let only the submissions of the short class draw; in the others, cells that do nothing else are missing. Drawing is
         most of what running a notebook costs.
+    exercise : str, optional
+        The only exercise of which submissions are written.
 
     Returns
     -------
@@ -121,6 +125,8 @@ def write_class(folder: Path, harmless: bool = False, short: bool = False, spars
         elif (REPOSITORY / name).is_file():
             shutil.copyfile(REPOSITORY / name, folder / name)
     chosen = [submission for submission in submissions() if not (harmless and submission.harmful)]
+    if exercise is not None:
+        chosen = [one for one in chosen if one.exercise == exercise]
     if short:
         chosen = [one for one in chosen if _is_in_short_class(one)]
     sources = {exercise: solution(exercise) for exercise in {submission.exercise for submission in chosen}}
@@ -151,9 +157,10 @@ def main() -> int:
     parser.add_argument("folder", type=Path, help="new, empty, or an earlier sample class, which is replaced")
     parser.add_argument("--harmless", action="store_true", help="leave out what could do harm without a sandbox")
     parser.add_argument("--short", action="store_true", help="write a part of the class: one submission of every kind")
+    parser.add_argument("--exercise", help="write the submissions of this exercise only")
     options = parser.parse_args()
     try:
-        written = write_class(options.folder, options.harmless, options.short)
+        written = write_class(options.folder, options.harmless, options.short, exercise=options.exercise)
     except NotOurs as reason:
         print(f"write.py: {reason}", file=sys.stderr)
         return 2

@@ -51,20 +51,43 @@ def axes_in_space(table: DHTable) -> dict[str, Any]:
     their factors. Sliding joints keep their letter.
     """
     letters = [row.variable.free_symbols & set(table.joints) for row in table.rows]
-    at_zero = dict.fromkeys(set().union(*(own for own, row in zip(letters, table.rows) if not row.sigma)), 0)
-    frame, joints = sympy.eye(4), []
-    for row, own, transform in zip(table.rows, letters, table.transforms()):
+    frames = frames_in_space(table)
+    joints = [
+        {"name": str(letter), "slides": bool(row.sigma), **_line(frame)}
+        for row, own, frame in zip(table.rows, letters, frames)
+        for letter in own
+    ]
+    end = {**_line(frames[-1]), "x": direction_of(frames[-1], 0)}
+    return {"joints": joints, "end": {**end, "frame": "E"} if end_frame(table) == "E" else end}
+
+
+def end_frame(table: DHTable) -> str:
+    """The name of the end effector's frame: the number of the last row, or E where that is no joint's."""
+    return str(len(table.rows)) if table.rows[-1].variable.free_symbols & set(table.joints) else "E"
+
+
+def frames_in_space(table: DHTable) -> list[sympy.Matrix]:
+    """The frames of a table, one (4, 4) for each row, seen from the base, with every turning joint at zero."""
+    turning = set().union(*(row.variable.free_symbols & set(table.joints) for row in table.rows if not row.sigma))
+    at_zero, frame, frames = dict.fromkeys(turning, 0), sympy.eye(4), []
+    for transform in table.transforms():
         frame = (frame * transform.subs(at_zero)).applyfunc(sympy.expand)
-        joints += [{"name": str(letter), "slides": bool(row.sigma), **_line(frame)} for letter in own]
-    return {"joints": joints, "end": {**_line(frame), "x": _direction(frame[:3, 0])}}
+        frames.append(frame)
+    return frames
 
 
 def _line(frame: sympy.Matrix) -> dict[str, Any]:
-    return {"point": [_factors(entry) for entry in frame[:3, 3]], "direction": _direction(frame[:3, 2])}
+    return {"point": origin_of(frame), "direction": direction_of(frame, 2)}
 
 
-def _direction(column: sympy.Matrix) -> list[float]:
-    return [int(entry) if entry.is_integer else float(entry) for entry in column]
+def origin_of(frame: sympy.Matrix) -> list[dict[str, float]]:
+    """The origin of a frame, as the kit's files have points."""
+    return [_factors(entry) for entry in frame[:3, 3]]
+
+
+def direction_of(frame: sympy.Matrix, axis: int) -> list[float]:
+    """The direction of an axis of a frame, 0 for X to 2 for Z."""
+    return [int(entry) if entry.is_integer else float(entry) for entry in frame[:3, axis]]
 
 
 def _factors(entry: sympy.Expr) -> dict[str, float]:
@@ -78,15 +101,14 @@ def _factors(entry: sympy.Expr) -> dict[str, float]:
 
 def for_the_kit() -> str:
     """What the kit's file says: of each arm its title, axes, and lengths to draw it with."""
-    lines = (
-        f"{json.dumps(name)}: " + json.dumps({"title": arm.title, **axes_in_space(arm.table), "lengths": _lengths(arm)})
-        for name, arm in arms().items()
-    )
+    lines = (f"{json.dumps(name)}: {json.dumps(shown(arm))}" for name, arm in arms().items())
     return "{\n" + ",\n".join(lines) + "\n}\n"
 
 
-def _lengths(arm: Described) -> dict[str, float]:
-    return {name: float(value) for name, value in arm.table.values.items()}
+def shown(arm: Described) -> dict[str, Any]:
+    """Of an arm its title, axes, and lengths to draw it with, as the kit's files have it."""
+    lengths = {name: float(value) for name, value in arm.table.values.items()}
+    return {"title": arm.title, **axes_in_space(arm.table), "lengths": lengths}
 
 
 if __name__ == "__main__":

@@ -54,7 +54,7 @@ def draw_arm(arm: Arm, *, elev=22.0, azim=-60.0):
     extent = [bodies.points()]
     extent += _draw_axes(ax, labels, arm, centres, size)
     frames = np.array([np.eye(4), _end_frame(arm, end)])
-    named = [axis for axis in merge_axes(frames, [0, len(arm.joints)], "xyz") if axis.label not in _named(arm)]
+    named = [axis for axis in merge_axes(frames, [0, arm.frame], "xyz") if axis.label not in _named(arm)]
     extent += ask_for_frames(ax, labels, named, size, width=1.8)
     _name_lengths(ax, labels, ways, radius)
     fit_3d(ax, np.vstack(extent), True, pad=0.42)

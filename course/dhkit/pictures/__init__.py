@@ -5,6 +5,7 @@ function that returns nothing) shows "not attempted yet", and one that cannot be
 compare an answer with the robot, they do not judge it.
 """
 
+from .arms import show_distances, show_on_arm, show_points, show_ranks, show_seen_from, show_zeros
 from .direct_models import (
     RX90,
     show_marks,
@@ -75,6 +76,7 @@ __all__ = [
     "show_count",
     "show_determinant",
     "show_dh_matrix",
+    "show_distances",
     "show_frame",
     "show_free_direction",
     "show_freedoms",
@@ -89,6 +91,7 @@ __all__ = [
     "show_marks",
     "show_mgi",
     "show_modes",
+    "show_on_arm",
     "show_on_origins",
     "show_on_planar_arm",
     "show_on_rx90",
@@ -103,7 +106,9 @@ __all__ = [
     "show_platform_joint",
     "show_point",
     "show_point_function",
+    "show_points",
     "show_postures",
+    "show_ranks",
     "show_reach",
     "show_reach_range",
     "show_reading",
@@ -114,6 +119,7 @@ __all__ = [
     "show_rx90_forward",
     "show_scara_forward",
     "show_section",
+    "show_seen_from",
     "show_shoulder",
     "show_singular",
     "show_singular_poses",
@@ -131,4 +137,5 @@ __all__ = [
     "show_wrist_centre",
     "show_wrist_formulas",
     "show_x_axis",
+    "show_zeros",
 ]
