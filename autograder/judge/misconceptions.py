@@ -167,33 +167,6 @@ def tool_left_out(**other) -> Mistake:
     )
 
 
-def tool_twice(**other) -> Mistake:
-    """The tool length stands in the tool row and once more in the row of the last joint."""
-    return _entry(
-        "tool_counted_twice",
-        0.4,
-        "**The tool length is counted twice**: once in its own row, and once in the row of a joint.",
-        lambda rows: [*rows[:-2], _added(rows[-2], rows[-1]), rows[-1]],
-        **other,
-    )
-
-
-def tool_in_joint_row(**other) -> Mistake:
-    """The tool length stands in the row of the last joint instead of its own."""
-    return _entry(
-        "tool_in_joint_row",
-        0.4,
-        "**The tool length stands in the row of a joint.** Behind the last joint nothing moves any more: the step to the "
-        "tool has a row of its own.",
-        lambda rows: [*rows[:-2], _added(rows[-2], rows[-1]), [0, 0, 0, 0, 0]],
-        **other,
-    )
-
-
-def _added(row: Sequence, tool: Sequence) -> list:
-    return [row[0], row[1] + tool[1], row[2], row[3] + tool[3], row[4]]
-
-
 def origins_as_d(heights: Sequence, **other) -> Mistake:
     """Relative joint origins are copied into column d."""
     return _entry(

@@ -12,9 +12,10 @@ from nbclient import NotebookClient
 
 from autograder.judge import misconceptions
 from autograder.questions import exercises
-from autograder.reference import errata, parallel, robots
+from autograder.reference import errata, robots
 from dhkit.forms import KINDS
 from dhkit.public import questions
+from dhm import parallel
 
 ROOT = Path(__file__).parents[2]
 SYLLABUS = tomllib.loads((ROOT / "docs/syllabus.toml").read_text())

@@ -104,7 +104,7 @@ def test_answers_to_different_numbers_go_by_words():
         Attempt(name, said, decoded(value), decoded(right))
         for name, said, value, right in (("a", "x", 1.0, 2.0), ("b", "x", 3.0, 4.0), ("c", "y", 1.0, 2.0))
     ]
-    number = Question("planar_2r.cos_theta2", 1)
+    number = Question("planar_2r.theta1", 1)
     assert students(number, found) == ["ab", "c"]
 
 

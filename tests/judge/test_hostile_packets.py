@@ -25,7 +25,7 @@ ASKED = (
     "planar_2r.inverse",
     "planar_2r.centre",
 )
-SIZES = {"planar_2r.table": (3, 5), "planar_2r.model": (2,), "planar_2r.T0E": (4, 4), "planar_2r.theta1": ()}
+SIZES = {"planar_2r.table": (4, 5), "planar_2r.model": (2,), "planar_2r.T0E": (4, 4), "planar_2r.theta1": ()}
 
 
 class Hang(BaseException):
@@ -81,7 +81,7 @@ def nested(node, wrap, times):
     return node
 
 
-T1, L1 = {"sym": "t1"}, {"sym": "L1"}
+T1, L1 = {"sym": "q1"}, {"sym": "a"}
 HEAVY = {
     "deep sines": nested(T1, lambda node: {"call": ["sin", node]}, 50),
     "tower of powers": nested(T1, lambda node: {"call": ["pow", 9, node]}, 40),

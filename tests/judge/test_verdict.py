@@ -335,9 +335,9 @@ def test_the_error_of_a_transform_is_told_in_degrees_and_metres():
 
 
 def test_cancellation_never_fails_a_right_answer():
-    question = find("planar_2r.cos_theta2")
-    x, y = sympy.symbols("x y")
-    right = (x**2 + y**2 - L1**2 - L2**2) / (2 * L1 * L2)
+    question = find("planar_2r.theta1")
+    x, y, t2 = sympy.symbols("x y t2")
+    right = sympy.atan2(y, x) - sympy.atan2(L2 * sympy.sin(t2), L1 + L2 * sympy.cos(t2))
     big = sympy.Integer(10) ** 18
     spoiled = sympy.Add(
         sympy.Mul(big, x + 1, evaluate=False), sympy.Mul(-big, x, evaluate=False), -big, right, evaluate=False

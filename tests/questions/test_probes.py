@@ -13,9 +13,6 @@ from dhm.transforms import modified_dh
 
 SOLUTIONS = Path(__file__).parents[2] / "solutions"
 ALMOST = [
-    ("planar_2r.inverse", {"slack": 0.02}, "tolerance_too_wide"),
-    ("planar_2r.inverse", {"slack": 1e-7}, "tolerance_too_wide"),
-    ("planar_2r.inverse", {"slack": 1e-11}, "limit_taken_for_out_of_reach"),
     ("scara_s600.mgi", {"slack": 0.02}, None),
     ("scara_s600.mgi", {"slack": 1e-11}, "limit_taken_for_out_of_reach"),
     ("inverse_models.rx90", {"slack": 0.02}, "tolerance_too_wide"),

@@ -1,11 +1,11 @@
-"""Planar arm with two revolute joints (EPFL slides): direct model, inverse model, postures, reach."""
+"""Planar arms: the one with two joints, an arm that the id chooses, a part on a belt, and a function to be mended."""
 
 from __future__ import annotations
 
+import numpy as np
 import sympy
 
 from autograder.judge import Follow, Question, following, mistake
-from autograder.judge.chain import SAME_FRAMES
 from autograder.judge.misconceptions import (
     angle_not_summed,
     angles_subtracted,
@@ -14,65 +14,41 @@ from autograder.judge.misconceptions import (
     classic_table,
     columns_exchanged,
     degrees,
-    fails_on_limit,
     misprint,
     option,
     posture_missing,
-    product,
-    reversed_product,
-    tolerance_too_wide,
-    tool_in_joint_row,
+    rows_shifted,
     tool_left_out,
-    tool_twice,
     transposed_rotation,
     with_first_theta1,
 )
-from autograder.judge.steps import in_each_row, negate, replace_entry
 
 from .model import (
     ABSOLUTE_MODEL,
     DIRECTION,
-    ELBOW_COSINE,
     FOREARM,
-    HAND,
+    GIVEN,
     L1,
-    L2,
     MODEL,
-    REACH,
-    ROWS,
-    TRANSFORMS,
     atan,
+    belt_times,
     draw_posture,
-    draw_reachable,
     draw_targets,
-    failing_atan,
+    failing,
     inverse,
     lengths_exchanged,
     name_case,
+    own_pose,
+    own_postures,
+    own_residual,
+    own_rows,
     residual,
-    solve_own,
     t1,
     t2,
+    without_quarter_turns,
 )
 
 QUESTIONS = (
-    Question(
-        "planar_2r.table",
-        reference=ROWS,
-        mistakes=(
-            classic_table(
-                feedback="**This is the classic Denavit-Hartenberg table**, as on the Romanian slide whose header says modified. "
-                "In the modified form row i holds the link *before* joint i.",
-            ),
-            columns_exchanged("a", "d"),
-            lengths_exchanged("Which link lies between the two joint axes?"),
-            tool_left_out(),
-            tool_twice(),
-            tool_in_joint_row(),
-        ),
-        partial=0.6,
-        pinned=SAME_FRAMES,
-    ),
     Question(
         "planar_2r.model",
         reference=MODEL,
@@ -93,48 +69,6 @@ QUESTIONS = (
             ),
             lengths_exchanged("L1 is the link at the base."),
         ),
-    ),
-    Question(
-        "planar_2r.T0E",
-        reference=HAND,
-        mistakes=(
-            mistake(
-                "tool_left_out",
-                0.6,
-                "**The tool is missing: this is 0T2, whose origin is at the elbow.** The hand is one length further on.",
-                lambda _: product(TRANSFORMS[:2]),
-            ),
-            reversed_product(*TRANSFORMS),
-            transposed_rotation(),
-            angles_subtracted(t2),
-        ),
-        follows=Follow("planar_2r.table", following.product_of_table),
-    ),
-    Question(
-        "planar_2r.cos_theta2",
-        reference=ELBOW_COSINE,
-        mistakes=(
-            mistake(
-                "sign_of_law_of_cosines",
-                0.5,
-                "**The sign is turned.** The law of cosines holds for the inner angle of the triangle; t2 is measured "
-                "from the prolonged link 1. Check with the stretched arm.",
-                lambda cosine: -cosine,
-            ),
-            mistake(
-                "factor_two_missing",
-                0.5,
-                "**A factor 2 is missing in the denominator.** Check with the stretched arm: its cosine must be 1.",
-                lambda cosine: 2 * cosine,
-            ),
-            mistake(
-                "angle_instead_of_cosine",
-                0.7,
-                "**This is the angle; its cosine is asked for.** With acos the second posture is already lost.",
-                sympy.acos,
-            ),
-        ),
-        draw=draw_reachable,
     ),
     Question(
         "planar_2r.theta1",
@@ -160,90 +94,6 @@ QUESTIONS = (
         draw=draw_posture,
     ),
     Question(
-        "planar_2r.reach",
-        reference=REACH,
-        mistakes=(
-            mistake(
-                "r_min_without_absolute_value",
-                0.7,
-                "**r_min becomes negative when link 2 is the longer one.** A distance never does.",
-                replace_entry(0, L1 - L2),
-                replace_entry(0, L2 - L1),
-            ),
-            mistake(
-                "r_min_zero",
-                0.5,
-                "**The hand cannot come back to the base unless the links are equally long.** Fold the arm and measure.",
-                replace_entry(0, 0),
-            ),
-            mistake(
-                "limits_exchanged",
-                0.6,
-                "**The two limits are exchanged.** r_min comes first.",
-                lambda limits: limits[::-1],
-            ),
-        ),
-    ),
-    Question(
-        "planar_2r.postures",
-        reference=solve_own,
-        mistakes=(
-            posture_missing(),
-            with_first_theta1(),
-            mistake(
-                "elbows_crossed",
-                0.4,
-                "**Each t1 is paired with the other posture's t2.** The pairs belong together: put them into the direct model.",
-                in_each_row(negate(1)),
-            ),
-            degrees(0, 1),
-        ),
-        angles=(0, 1),
-        residual=residual,
-    ),
-    Question(
-        "planar_2r.inverse",
-        reference=inverse,
-        mistakes=(
-            posture_missing(),
-            atan_for_atan2(
-                wrong=[
-                    {"direction": atan},
-                    {"direction": atan, "slack": 0.0, "beyond": None},
-                    {"direction": failing_atan},
-                    {"direction": failing_atan, "slack": 0.0, "beyond": None},
-                ],
-            ),
-            fails_on_limit({"slack": 0.0, "beyond": None}),
-            mistake(
-                "limit_taken_for_out_of_reach",
-                0.7,
-                "**Some targets on a limit come back without a solution.** Rounding pushes the cosine of t2 a hair above "
-                "1: leave a small tolerance before you say that a target is out of reach.",
-                wrong=[{"slack": 0.0}, {"slack": 1e-12}],
-            ),
-            tolerance_too_wide({"slack": 1e-6}),
-            mistake(
-                "out_of_reach_fails",
-                0.7,
-                "**Out of reach your function does not return an empty list.** Test the cosine of t2 before you take acos, and return `[]` "
-                "where there is no angle.",
-                wrong={"beyond": None},
-            ),
-            degrees(0, 1),
-            mistake(
-                "no_solution_at_all",
-                0.0,
-                "**Your function finds no solution for any target**, not even for those within reach.",
-                lambda _: [],
-            ),
-        ),
-        angles=(0, 1),
-        probe=draw_targets,
-        case=name_case,
-        residual=residual,
-    ),
-    Question(
         "planar_2r.centre",
         reference="D",
         mistakes=(
@@ -264,5 +114,187 @@ QUESTIONS = (
                 "folded, and of the determinant that decides about t1?",
             ),
         ),
+    ),
+    Question(
+        "planar_2r.belt",
+        reference=belt_times,
+        mistakes=(
+            mistake(
+                "distance_taken_for_the_way",
+                0.4,
+                "**The belt does not run through the base.** A part at the distance r from the base is less far along the belt: Pythagoras, "
+                "with the {belt} m between belt and base.",
+                wrong={"distance": "straight"},
+            ),
+            mistake(
+                "start_forgotten",
+                0.5,
+                "**At time 0 the part is not beside the base.** It is at x = {start} m.",
+                wrong={"origin": False},
+            ),
+            mistake(
+                "ways_instead_of_times",
+                0.6,
+                "**These are ways along the belt.** How long does the part take for them at {speed} m/s?",
+                wrong={"per_speed": False},
+            ),
+            mistake(
+                "order_of_the_times",
+                0.6,
+                "**The four times are right, and in another order.** First it enters, then it is lost near the base, found again, and gone.",
+                lambda times: [times[0], times[3], times[1], times[2]],
+                lambda times: [times[1], times[2], times[0], times[3]],
+            ),
+        ),
+    ),
+    Question(
+        "planar_2r.table",
+        reference=own_rows,
+        mistakes=(
+            classic_table(
+                feedback="**This is the classic Denavit-Hartenberg table.** In the modified form row i holds the link *before* joint i.",
+            ),
+            mistake(
+                "quarter_turns_missing",
+                0.4,
+                "**Every constant angle is 0 in this table.** An axis of a slide lies in the plane, an axis of a turn stands on it; and X has "
+                "to be perpendicular to the axis before and the axis behind. Where must a frame turn by 90 degrees for that?",
+                without_quarter_turns,
+            ),
+            columns_exchanged("a", "d"),
+            columns_exchanged("a", "alpha"),
+            tool_left_out(
+                feedback="**The last row is empty.** Behind joint 3 something is left: the way to the end effector, or the turn that brings X "
+                "to where the walker looks."
+            ),
+            rows_shifted(),
+        ),
+        partial=0.6,
+    ),
+    Question(
+        "planar_2r.T0E",
+        reference=own_pose,
+        mistakes=(
+            mistake(
+                "tool_left_out",
+                0.6,
+                "**This is 0T3: the step from frame 3 to the end effector is missing.**",
+                wrong={"rows": slice(None, -1)},
+            ),
+            mistake(
+                "reversed_product",
+                0.3,
+                "**The matrices are multiplied in the reverse order.** From left to right: base first, end effector last.",
+                wrong={"order": -1},
+            ),
+            transposed_rotation(),
+            mistake(
+                "turns_clockwise",
+                0.4,
+                "**The joints turn clockwise in this transform.** Seen with z0 towards you, a positive angle is counter-clockwise.",
+                wrong={"sense": -1},
+            ),
+        ),
+        follows=Follow("planar_2r.table", following.product_of_table),
+    ),
+    Question(
+        "planar_2r.postures",
+        reference=own_postures,
+        mistakes=(
+            posture_missing(),
+            with_first_theta1(),
+            mistake(
+                "heading_taken_for_a_joint",
+                0.4,
+                "**The last turn is not counted from x0.** The {phi} degrees of the end effector are the sum of all turns before it.",
+                wrong={"relative": False},
+            ),
+            mistake(
+                "degrees",
+                0.4,
+                "**The angles are in degrees.** The question asks for radians, and for metres of a slide.",
+                wrong={"unit": 180 / np.pi},
+                turn=360,
+            ),
+        ),
+        angles=(0, 1, 2),  # of a slide nobody gives 2 pi metres more
+        residual=own_residual,
+    ),
+    Question(
+        "planar_2r.faults",
+        reference=failing,
+        places=False,
+        mistakes=(
+            mistake(
+                "fourth_quadrant_blamed",
+                0.6,
+                "**In front of the base, below, the given function is right.** An arctangent gives angles between -90 and 90 degrees: which "
+                "directions does it lose?",
+                wrong={"instead": {"behind": "below"}},
+            ),
+            mistake(
+                "out_of_reach_blamed",
+                0.6,
+                "**Where the rod is too short the given function is right.** And nearer to the base than the offset?",
+                wrong={"instead": {"inner": "beyond"}},
+            ),
+            mistake(
+                "one_solution_blamed",
+                0.6,
+                "**One of these targets has one solution only, and the function finds it.** The rod runs through its sleeve: for which target "
+                "would it reach on the other side, too?",
+                wrong=[{"instead": {"near": "ahead"}}, {"instead": {"near": "below"}}],
+            ),
+        ),
+    ),
+    Question(
+        "planar_2r.inverse",
+        reference=inverse,
+        mistakes=(
+            mistake(
+                "as_it_was_given",
+                0.0,
+                "**This is the function as it was given.** Try it at your six targets, with the direct model.",
+                wrong=GIVEN,
+            ),
+            atan_for_atan2(wrong={"direction": atan}),
+            mistake(
+                "rod_on_one_side_only",
+                0.5,
+                "**Solutions are missing.** The rod runs through its sleeve: its length may be negative, and a square has two roots.",
+                wrong=[{"signs": (1,)}, {"signs": (-1,)}],
+            ),
+            mistake(
+                "inner_circle",
+                0.6,
+                "**Nearer to the base than the offset there is no solution.** The end of the rod is never there, wherever the rod is.",
+                wrong={"inner": True},
+            ),
+            mistake(
+                "ends_ignored",
+                0.6,
+                "**The rod has two ends.** d2 lies between d_min and d_max; a solution that needs more is none.",
+                wrong={"ends": False},
+            ),
+            mistake(
+                "offset_on_the_other_side",
+                0.4,
+                "**The offset is on the other side.** From the base the walker goes e to the *left* before the rod begins.",
+                wrong={"side": -1},
+            ),
+            mistake(
+                "out_of_reach_fails",
+                0.7,
+                "**Where there is no solution your function does not return an empty list.** Ask first whether there is a triangle, and return "
+                "`[]` where there is none.",
+                wrong={"nothing": None},
+            ),
+            degrees(0),
+            mistake("no_solution_at_all", 0.0, "**Your function finds no solution for any target.**", lambda _: []),
+        ),
+        angles=(0,),
+        probe=draw_targets,
+        case=name_case,
+        residual=residual,
     ),
 )

@@ -27,6 +27,7 @@ from .planar import (
     mark_target,
 )
 from .planar_2r import count_postures, grid_points
+from .planar_arms import draw_walked_arm
 from .postures import (
     draw_aligned_wrist,
     draw_arm_plane,
@@ -125,6 +126,7 @@ __all__ = [
     "draw_two_readings",
     "draw_type8",
     "draw_walk",
+    "draw_walked_arm",
     "draw_workspace_2r",
     "grid_points",
     "mark_edges",

@@ -44,7 +44,8 @@ from .parameters import (
     show_x_axis,
 )
 from .pen import show_circles, show_height, show_pen_inverse, show_tip, show_trace
-from .planar import show_cos_theta2, show_inverse, show_on_planar_arm, show_postures, show_reach, show_theta1
+from .planar import show_inverse, show_on_planar_arm, show_postures, show_theta1
+from .planar_arms import show_belt, show_on_walked_arm, show_rods, show_walked_postures
 from .scara import show_on_scara, show_scara_forward
 from .scara_s600 import show_classic, show_configurations, show_linear, show_mgi, show_on_s600
 from .tables import (
@@ -65,6 +66,7 @@ __all__ = [
     "show_3rrr_postures",
     "show_all_postures",
     "show_area",
+    "show_belt",
     "show_chain",
     "show_circles",
     "show_classic",
@@ -72,7 +74,6 @@ __all__ = [
     "show_classic_rows",
     "show_cloud",
     "show_configurations",
-    "show_cos_theta2",
     "show_count",
     "show_determinant",
     "show_dh_matrix",
@@ -97,6 +98,7 @@ __all__ = [
     "show_on_rx90",
     "show_on_s600",
     "show_on_scara",
+    "show_on_walked_arm",
     "show_origin",
     "show_own_dhm",
     "show_parallel_axes",
@@ -109,11 +111,11 @@ __all__ = [
     "show_points",
     "show_postures",
     "show_ranks",
-    "show_reach",
     "show_reach_range",
     "show_reading",
     "show_repaired_row",
     "show_rewritten",
+    "show_rods",
     "show_rotation",
     "show_rpy_entries",
     "show_rx90_forward",
@@ -132,6 +134,7 @@ __all__ = [
     "show_turned_hand",
     "show_turns",
     "show_walk",
+    "show_walked_postures",
     "show_way_to_part",
     "show_wrist",
     "show_wrist_centre",

@@ -69,41 +69,6 @@ def show_postures(solutions, lengths, target, heading=None):
 
 
 @own_result
-def show_cos_theta2(expression, lengths):
-    """Show the cosine of the elbow angle against the distance of the target, with the range of a cosine.
-
-    Parameters
-    ----------
-    expression : SymPy expression in x, y, L1, L2
-    lengths : (float, float), in metres
-
-    Returns
-    -------
-    matplotlib Axes
-    """
-    l1, l2 = lengths
-    distance = np.linspace(0, 1.25 * (l1 + l2), 101)
-    values = [
-        numbers(expression, "cos(t2)", (), {"x": r * np.cos(0.7), "y": r * np.sin(0.7), "L1": l1, "L2": l2})
-        for r in distance
-    ]
-    ax = plt.subplots(figsize=(5.6, 3.4))[1]
-    ax.axhspan(-1, 1, color="#eeeeee", zorder=0)
-    ax.plot(distance, values, color=INK, lw=1.8)
-    for r, name in ((abs(l1 - l2), "$|L_1 - L_2|$"), (l1 + l2, "$L_1 + L_2$")):
-        ax.axvline(r, color=SOFT, lw=1, ls=(0, (5, 2)))
-        ax.annotate(name, (r, -2.75), xytext=(4, 0), textcoords="offset points", va="center")
-    ax.set(
-        xlabel="distance from base to target (m)",
-        ylabel=r"your $\cos\theta_2$",
-        ylim=(-3.2, 3.2),
-        xlim=(0, distance[-1]),
-    )
-    ax.annotate("a cosine lives here", (0, 0.6), xytext=(10, 0), textcoords="offset points", va="center")
-    return ax
-
-
-@own_result
 def show_theta1(expression, lengths, target):
     """Show both arms that a formula for t1 gives for one target, t2 being right.
 
@@ -123,38 +88,6 @@ def show_theta1(expression, lengths, target):
     bends = two_link(x + 1j * y, l1, l2).bend
     rows = [(float(numbers(expression, "t1", (), given | {"t2": t2})), t2) for t2 in bends]
     return draw_postures(lengths, rows, target)
-
-
-@own_result
-def show_reach(limits, lengths):
-    """Show the circles [r_min, r_max] of an answer over points that the arm really reaches.
-
-    Parameters
-    ----------
-    limits : 2 entries in L1, L2
-    lengths : (float, float), in metres
-
-    Returns
-    -------
-    matplotlib Axes
-    """
-    inner, outer = numbers(limits, "reach", (2,), {"L1": lengths[0], "L2": lengths[1]})
-    random = np.random.default_rng(7)
-    q = random.uniform(-np.pi, np.pi, (2, 2500)).T
-    ax = plt.subplots(figsize=(4.6, 4.6))[1]
-    ax.set_aspect("equal")
-    ax.plot(*planar_joints(lengths, q)[:, -1].T, ".", ms=2.5, color=SOFT, label="random postures")
-    turn = np.linspace(0, 2 * np.pi, 200)
-    for radius, dashes, name in (
-        (outer, "-", "your $r_\\mathrm{max}$"),
-        (inner, (0, (5, 2)), "your $r_\\mathrm{min}$"),
-    ):
-        circle = radius * unit_vector(turn)
-        ax.plot(*circle.T, color=INK, lw=1.8, ls=dashes, label=f"{name} = {radius:.2f} m")
-    ax.margins(0.06)
-    ax.set(xlabel="x (m)", ylabel="y (m)")
-    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, columnspacing=1.2, handlelength=1.6)
-    return ax
 
 
 @own_result

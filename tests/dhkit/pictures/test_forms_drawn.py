@@ -51,7 +51,7 @@ def drawn(ax) -> bool:
         lambda: pictures.show_postures(
             [{"t2": 1.2, "t1": 0.4, "d2": 0.1, "t4": -0.6}], (0.4, 0.3), (0.35, 0.45), 1.0
         ),
-        lambda: pictures.show_reach({"r_min": 0.2, "r_max": 0.8}, (0.3, 0.5)),
+        lambda: pictures.show_section({"z": 0.2, "rho": 0.8}, {"t2": 0.3, "t3": 0.4, "L1": 0.5, "L2": 0.3}),
         lambda: pictures.show_marks([[[True] + [False] * 3] * 4], {"U": sympy.eye(4)}),
         lambda: pictures.show_triples({"yaw": 0.1, "roll": 0.2, "pitch": 0.3}, "zyx", np.eye(3), order=(2, 1, 0)),
         lambda: pictures.show_table(

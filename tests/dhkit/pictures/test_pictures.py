@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import sympy
-from sympy import Abs, Matrix, atan2, cos, sin
+from sympy import Matrix, atan2, cos, sin
 
 from dhkit import pictures
 
@@ -16,7 +16,10 @@ t1, t2, t4, a2, a3, d2, L1, L2, x, y = sympy.symbols("t1 t2 t4 a2 a3 d2 L1 L2 x 
 SCARA = {"t1": -0.4, "t2": 1.0, "t4": -0.9, "a2": 0.4, "a3": 0.3, "d2": 0.2}
 PLANAR = {"t1": 0.6, "t2": 0.9, "L1": 0.5, "L2": 0.4}
 TABLE = [[0, 0, 0, 0, t1], [0, a2, 0, 0, t2], [1, a3, 0, -d2, 0], [0, 0, 0, 0, t4]]
-COSINE = (x**2 + y**2 - L1**2 - L2**2) / (2 * L1 * L2)
+OWN = {
+    "arm": "rail", "q1": 0.2, "q2": 0.4, "q3": 0.3, "a": 0.4, "b": 0.3, "c": 0.1, "x": 0.3, "y": 0.4, "phi": 40,
+    "L1": 0.5, "L2": 0.3, "belt": 0.1, "speed": 0.3, "start": -1.0, "e": 0.1, "out": 0.6, "back": 0.3, "order": "025314",
+}  # fmt: skip
 SHOULDER = atan2(y, x) - atan2(L2 * sin(t2), L1 + L2 * cos(t2))
 HEADING = t1 + t2 + t4
 HAND = Matrix(
@@ -55,9 +58,11 @@ SHOWN = {
     "planar_frame": (pictures.show_on_planar_arm, Matrix.eye(4), (PLANAR,)),
     "postures": (pictures.show_postures, inverse(0.3, 0.6, 0.5, 0.4), ((0.5, 0.4), (0.3, 0.6))),
     "scara_postures": (pictures.show_postures, [(0.4, 1.2, 0.1, -0.6)], ((0.4, 0.3), (0.35, 0.45), 1.0)),
-    "cos_theta2": (pictures.show_cos_theta2, COSINE, ((0.5, 0.4),)),
     "theta1": (pictures.show_theta1, SHOULDER, ((0.5, 0.4), (0.3, 0.6))),
-    "reach": (pictures.show_reach, [Abs(L1 - L2), L1 + L2], ((0.3, 0.5),)),
+    "belt": (pictures.show_belt, [1.0, 2.0, 3.0, 4.0], (OWN,)),
+    "own_transform": (pictures.show_on_walked_arm, Matrix.eye(4), ("rail", OWN)),
+    "own_postures": (pictures.show_walked_postures, [(0.1, 0.5, 0.3)], (OWN,)),
+    "rods": (pictures.show_rods, lambda x, y, e, least, most: [(np.arctan2(y, x), np.hypot(x, y))], (OWN,)),
     "inverse": (pictures.show_inverse, inverse, ((0.5, 0.3),)),
 }
 
@@ -108,7 +113,7 @@ def test_a_partly_filled_answer_says_so():
         (pictures.show_postures, [(1, 2, 3)], ((0.5, 0.4), (0.3, 0.6)), "solutions: expected n x 2"),
         (pictures.show_inverse, 3, ((0.5, 0.3),), "expected a function, found int"),
         (pictures.show_inverse, lambda *q: 1 / 0, ((0.5, 0.3),), "division by zero"),
-        (pictures.show_reach, "far", ((0.5, 0.3),), "cannot be drawn"),
+        (pictures.show_belt, "far", (OWN,), "cannot be drawn"),
     ],
 )
 def test_a_broken_answer_shows_why(show, answer, rest, message):
