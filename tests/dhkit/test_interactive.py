@@ -1,7 +1,6 @@
 """Sliders come with a static picture, and with the picture alone where widgets are missing."""
 
 import base64
-import sys
 from io import BytesIO
 
 import matplotlib
@@ -24,11 +23,16 @@ def shown(monkeypatch):
     return seen
 
 
+@pytest.fixture
+def watched(monkeypatch):
+    monkeypatch.setattr(interactive, "is_watched", lambda: True)
+
+
 def arm(t1, t2):
     return draw_planar_arm((0.5, 0.4), (t1, t2))
 
 
-def test_sliders_carry_the_start_figure_as_a_static_picture(shown):
+def test_sliders_carry_the_start_figure_as_a_static_picture(shown, watched):
     interactive.explore(arm, t1=(-1, 1, 0.3), t2=(-1, 1, 0.5))
     (bundle,) = shown
     assert "application/vnd.jupyter.widget-view+json" in bundle
@@ -36,13 +40,19 @@ def test_sliders_carry_the_start_figure_as_a_static_picture(shown):
     assert not plt.get_fignums()
 
 
-def test_without_widgets_the_static_picture_remains(shown, monkeypatch):
-    monkeypatch.setitem(sys.modules, "ipywidgets", None)
+def test_without_widgets_the_static_picture_remains(shown, watched, monkeypatch):
+    monkeypatch.setattr(interactive, "find_spec", lambda name: None)
     interactive.explore(arm, t1=(-1, 1, 0.3), t2=(-1, 1, 0.5))
     assert shown[0].data.startswith(PNG)
 
 
-def test_moving_a_slider_redraws(shown, monkeypatch):
+def test_where_nobody_sits_before_the_notebook_the_picture_stands_alone(shown):
+    interactive.explore(arm, t1=(-1, 1, 0.3), t2=(-1, 1, 0.5))
+    (picture,) = shown
+    assert picture.data.startswith(PNG)
+
+
+def test_moving_a_slider_redraws(shown, watched, monkeypatch):
     import ipywidgets
 
     drawn, sliders = [], []

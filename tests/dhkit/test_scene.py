@@ -188,6 +188,15 @@ def test_what_goes_wrong_in_a_students_function_is_told_in_words(watched, functi
     assert words in scene._widget.answer["words"]
 
 
+def test_a_path_does_not_leap_by_full_turns():
+    path = Scene(PLANAR).play([[3.0, 0], [-3.1, 0.2], [-2.9, 6.2]]).state()["path"]
+    assert np.array(path) == pytest.approx(
+        np.array([[3.0, 0], [2 * np.pi - 3.1, 0.2], [2 * np.pi - 2.9, 6.2 - 2 * np.pi]])
+    )
+    limited = Scene(PLANAR, limits=[(-3.1, 3.1)] * 2).play([[3.0, 0], [-3.1, 0.2]])
+    assert limited.state()["path"] == [[3.0, 0], [-3.1, 0.2]]
+
+
 def test_sliders_have_round_values_within_the_limits():
     joints = Scene(SCARA, LENGTHS, limits=[(-1, 1), (-1, 1), (0.0, 0.25), (-1, 1)]).arm.joints
     assert (joints[2].low, joints[2].high, joints[2].step) == (0.0, 0.25, 0.005)

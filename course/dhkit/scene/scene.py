@@ -140,7 +140,7 @@ class Scene(Live):
         Parameters
         ----------
         path : rows of n joint values, shape (k, n)
-            Postures at equal times, two or more.
+            Postures at equal times, two or more. A joint that may go round goes the shorter way from each to the next.
         seconds : float
             How long it takes.
 
@@ -155,9 +155,9 @@ class Scene(Live):
         self._seconds = as_number(seconds, "seconds")
         if not 0 < self._seconds <= 600:
             raise ValueError(f"seconds: expected more than 0, and at most 600, found {self._seconds:g}")
-        self._path, self._run = rows, self._run + 1
+        self._path, self._run = self._unwound(rows), self._run + 1
         if self._widget is not None:
-            self._widget.set_trait("path", rows)
+            self._widget.set_trait("path", self._path)
             self._widget.set_trait("seconds", self._seconds)
             self._widget.set_trait("run", self._run)
         return self
@@ -232,6 +232,17 @@ class Scene(Live):
         except Exception as error:  # whatever may go wrong in it
             return [], f"inverse: {error or type(error).__name__}"[:_LONGEST]
         return rows, "" if rows else "inverse: no posture for this place"
+
+    def _unwound(self, path: list[list[float]]) -> list[list[float]]:
+        """A path without the leaps by full turns that inverse functions make."""
+        if not path:
+            return path
+        rows = np.array(path)
+        round_and_round = [
+            not joint.prismatic and joint.high - joint.low > 2 * np.pi - 1e-6 for joint in self.arm.joints
+        ]
+        rows[:, round_and_round] = np.unwrap(rows[:, round_and_round], axis=0)
+        return rows.tolist()
 
     def _rows(self, rows: Any, what: str, most: int = MOST_POINTS) -> list[list[float]]:
         """Postures as lists of finite numbers; a single one may stand alone."""

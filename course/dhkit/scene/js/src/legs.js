@@ -2,7 +2,7 @@
 // A leg is drawn out (3-RPR), or folded at an elbow by a driven bar (3-RRR). Metres and radians.
 
 const STEPS = 1440; // of the platform's angle in the search for modes
-const NEAR = 0.06; // of the usual: below this the legs nearly meet in one point
+const NEAR = 0.15; // of the platform's size: with a smaller determinant the lines nearly meet in one point
 
 /** The joints of a platform in a pose. */
 export function jointsOf(platform, [x, y, phi]) {

@@ -213,24 +213,26 @@ export function mountParallel(element, state, { onMove = () => {} } = {}) {
     set(whole(at(low)));
   }
 
-  /** Move one drive in small steps; in each the platform stays in its mode, as long as there is one. */
+  /** Where one small motion of the drives carries the platform; null where its mode ends. */
+  function carried(from, drives) {
+    const { feet, lengths } = lastBars(legs, drives);
+    const next = modes(feet, legs.platform, lengths).reduce((best, pose) => (!best || apart(pose, from, size) < apart(best, from, size) ? pose : best), null);
+    return next && apart(next, from, size) < LEAP * unit ? [...next, ...drives] : null;
+  }
+
+  /** Move one drive in small steps, the platform always in its mode; to the end of the mode where that comes first. */
   function drive(i, value) {
     const count = Math.max(1, Math.ceil(Math.abs(value - q[3 + i]) / (0.02 * (legs.bars ? 3 : unit))));
-    const from = q[3 + i];
-    let here = q;
-    for (let k = 1; k <= count; k++) {
-      const drives = here.slice(3).map((each, j) => (j === i ? from + (k / count) * (value - from) : each));
-      const { feet, lengths } = lastBars(legs, drives);
-      const next = modes(feet, legs.platform, lengths).reduce((best, pose) => (!best || apart(pose, here, size) < apart(best, here, size) ? pose : best), null);
-      if (!next || apart(next, here, size) > LEAP * unit) {
-        set(here);
-        return say("no further: here two modes meet, and beyond there is none");
-      }
-      here = [...next, ...drives];
+    const start = q[3 + i], at = (share) => q.slice(3).map((each, j) => (j === i ? start + share * (value - start) : each));
+    let here = q, done = 0, step = 1 / count;
+    while (done < 1 && step > 1e-4 / count) {
+      const next = carried(here, at(Math.min(done + step, 1)));
+      if (next) [here, done] = [next, Math.min(done + step, 1)];
+      else step /= 2;
     }
-    legs.elbows = legs.bars ? elbowsOf(here) : legs.elbows;
-    set(here);
-    return say("");
+    if (legs.bars) legs.elbows = elbowsOf(here);
+    set([...here]);
+    say(done < 1 ? "no further: here two modes meet" : "");
   }
 
   /** On which side of its legs the elbows stand. */

@@ -106,7 +106,7 @@ export class Picture {
         const ends = [low, high].map((end) => add(side, z, share * (end - q[j])));
         return [tube(...ends, width, colour), ...ends.map((end) => ball(end, 2 * width, colour)), ball(side, 2.8 * width, colours.lit)];
       }
-      const centre = at(frames, this.centres.get(i)), far = 4.4 * this.radius;
+      const centre = at(frames, this.centres.get(i)), far = 3.6 * this.radius;
       const spoke = (angle, out = far) => {
         const turn = share * (angle - q[j]), x = column(frame, 0), y = column(frame, 1);
         return add(add(centre, x, out * Math.cos(turn)), y, out * Math.sin(turn));

@@ -1,7 +1,7 @@
 // A serial robot that the reader moves: sliders, the hand itself, postures to compare, a path, the moves of a row.
 
 import { buttons, chooser, inDegrees, inMetres, jointSliders, make, player, pressed } from "./controls.js";
-import { follow, same, turnBetween } from "./follow.js";
+import { follow, same, turnBetween, within } from "./follow.js";
 import { add, chain, column, forward, norm, rowsAt, subtract } from "./kinematics.js";
 import { below } from "./labels.js";
 import { Picture, metres } from "./picture.js";
@@ -90,7 +90,7 @@ export function mountArm(element, state, { onMove = () => {}, ask = null } = {})
   function set(next) {
     q = next;
     view.setPosture(q);
-    sliders.set(q);
+    sliders.set(within(joints, q));
     const [x, y, z] = column(forward(arm, q), 3).map(metres);
     hand.textContent = `${arm.tool || arm.names.at(-1) === "E" ? "tool" : `O${arm.names.at(-1)}`} at (${x}, ${y}, ${z}) m`;
     postures?.buttons.forEach((button, i) => {
@@ -113,7 +113,7 @@ export function mountArm(element, state, { onMove = () => {}, ask = null } = {})
     const able = axes.filter((_, i) => i < Math.min(3, joints.length) && !(picture.flat && i === 2));
     const words = lost.length
       ? `${lost.length > 1 ? "singular" : "near a singular posture"}: the hand stays while ${free.map((each) => inWords(each, joints)).join(", or ")} moves`
-      : `hand: ${speed(able.at(-1).speed)} to ${speed(axes[0].speed)} m/s for joint speeds of total 1`;
+      : `hand: ${speed(able.at(-1).speed)} to ${speed(axes[0].speed)} m/s per rad/s of the joints`;
     rates.textContent = words;
     rates.classList.toggle("alarm", lost.length > 0);
   }

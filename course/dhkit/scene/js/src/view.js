@@ -264,8 +264,8 @@ export class View {
     const points = [...postures.flatMap((q) => picture.outline(q)), ...this.trace.points, ...this.marks.map((mark) => mark.at)];
     const corners = points.map((point) => new THREE.Vector3(...point));
     if (this.cloud && this.show.cloud) {
-      const { min, max } = this.cloud.geometry.boundingBox;
-      for (const k of [0, 1, 2, 3, 4, 5, 6, 7]) corners.push(new THREE.Vector3(...["x", "y", "z"].map((axis, i) => (k & (1 << i) ? max : min)[axis])));
+      const places = this.cloud.geometry.attributes.position, some = Math.ceil(places.count / 300);
+      for (let i = 0; i < places.count; i += some) corners.push(new THREE.Vector3().fromBufferAttribute(places, i));
     }
     const box = new THREE.Box3().setFromPoints(corners), { target } = this.controls;
     box.getCenter(target);
