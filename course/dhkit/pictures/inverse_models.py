@@ -10,13 +10,14 @@ from ..drawing.chains import chain_frames, draw_chain
 from ..drawing.postures import draw_posture_family, draw_posture_gallery, draw_shoulder_top
 from ..drawing.style import DASHED, INK, SOFT
 from ..geometry import rotation_angle_between
+from . import live
 from .own_result import called, card, entries, numbers, numbers_in_rows, own_result
 
 MOST = 16  # postures drawn
 
 
 @own_result
-def show_all_postures(solutions, table, target):
+def show_all_postures(solutions, table, target, inverse=None):
     """Show joint solutions of a robot side by side, each with the distance by which it misses the target.
 
     Parameters
@@ -25,6 +26,8 @@ def show_all_postures(solutions, table, target):
     table : function of the joint values, by their names -> rows [sigma, a, alpha, d, theta]
     target : array-like, shape (3,) or (4, 4)
         A point in metres, or a pose.
+    inverse : function of a pose, shape (4, 4) -> rows of joint values, optional
+        A live scene asks it for all postures of the hand.
 
     Returns
     -------
@@ -37,6 +40,7 @@ def show_all_postures(solutions, table, target):
     target = np.array(target, dtype=float)
     tables = [table(*q) for q in rows[:MOST]]
     names = [f"{k}: {_miss(each, target)}" for k, each in enumerate(tables, 1)]
+    live.beside(lambda: live.postures(table, rows[:MOST], width, inverse))
     return draw_posture_gallery(tables, names, target if target.shape == (3,) else None)
 
 
@@ -44,7 +48,9 @@ def show_all_postures(solutions, table, target):
 def show_inverse_of_pose(inverse, table, pose, *lengths):
     """Show what a student's function ``inverse(pose, *lengths)`` returns, as `show_all_postures` does."""
     found = called(inverse, np.array(pose, dtype=float), *lengths)
-    return show_all_postures(found, table, pose) if len(found) else card("no solution given")
+    if not len(found):
+        return card("no solution given")
+    return show_all_postures(found, table, pose, inverse=lambda hand: inverse(hand, *lengths))
 
 
 def _miss(table, target) -> str:

@@ -9,6 +9,7 @@ from matplotlib.patches import Circle
 from ..drawing.parallel import draw_3rpr, draw_3rrr, draw_assembly_modes, draw_leg_lines, platform_points
 from ..drawing.planar import mark_target
 from ..drawing.style import AXIS_COLOURS, HALO, INK, SOFT
+from . import live
 from .own_result import called, numbers, numbers_in_rows, own_result
 
 
@@ -87,6 +88,7 @@ def show_modes(modes, base, platform, lengths):
         verdict = "legs fit" if error < 1e-3 else f"a leg is off by {error:.3f} m"
         text.set_text(f"{text.get_text()},  {verdict}")
         text.set_fontsize(9)
+    live.beside(lambda: live.modes(base, platform, rows))
     return ax
 
 

@@ -11,6 +11,7 @@ from ..drawing.strokes import show_plane
 from ..drawing.strokes_3d import draw_target_3d, write_3d
 from ..drawing.style import AXIS_COLOURS, INK, SOFT
 from ..geometry import rotation, unit_vector, wrap
+from . import live
 from .own_result import called, entries, numbers, numbers_in_rows, own_result
 
 
@@ -178,6 +179,7 @@ def show_trace(follow, curve, sizes: dict[str, float], stop=np.pi / 2):
     trace = pen_tip(rows, sizes)
     away = 1000 * np.linalg.norm(trace - curve, axis=1).max()
     largest = np.degrees(np.abs(wrap(np.array(rows)[:, 1:])).max(axis=0))
+    live.beside(lambda: live.pen(sizes, rows))
     ax = draw_pen_robot(rows[len(rows) // 3], sizes, names=False, curve=curve, trace=trace)
     said = f"trace at most {away:.2g} mm from the curve" if away < 1e4 else "trace far from the curve"
     beyond = " and ".join(rf"$\theta_{k + 2}$" for k in (0, 1) if largest[k] > np.degrees(stop) + 1e-6)

@@ -9,6 +9,7 @@ from matplotlib.patches import Circle
 from ..drawing.planar import draw_planar_arm, draw_postures, mark_frame_2d, mark_hands, mark_target
 from ..drawing.style import AXIS_COLOURS, INK, SOFT, in_degrees
 from ..geometry import planar_joints, two_link, unit_vector
+from . import live
 from .own_result import called, entries, numbers, numbers_in_rows, own_result
 
 
@@ -65,6 +66,8 @@ def show_postures(solutions, lengths, target, heading=None):
         mark_hands(ax, lengths, rows[:, :2], hands, target, heading, notes)
     if not len(rows):
         ax.set_title("no solution given")
+    elif heading is None:
+        live.beside(lambda: live.planar_arm(lengths, rows))
     return ax
 
 
@@ -124,6 +127,7 @@ def show_inverse(inverse, lengths):
             ax.plot(*chosen.T, marker, ms=size, mfc=fill, mec=edge, ls="none", label=name)
     for radius, dashes in ((l1 + l2, "-"), (abs(l1 - l2), (0, (5, 2)))):
         ax.add_patch(Circle((0, 0), radius, fill=False, ec=INK, lw=0.9, ls=dashes, zorder=1))
+    live.beside(lambda: live.planar_arm(lengths, inverse=lambda hand: inverse(*map(float, hand[:2, 3]), l1, l2)))
     ax.set(xlabel="x (m)", ylabel="y (m)")
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=4, columnspacing=1.2, handletextpad=0.3)
     return ax

@@ -15,6 +15,7 @@ from ..drawing.style import INK, POSTURE_SHADES
 from ..drawing.tables import draw_joint_origins
 from ..drawing.view import add_axes_3d
 from ..geometry import chain_products, classic_dh, modified_dh, planar_joints, unit_vector
+from . import live
 from .own_result import called, numbers, own_result, say_if_not_rigid
 
 COLUMNS = ("i", r"\sigma_i", r"a_{i-1}", r"\alpha_{i-1}", "d_i", r"\theta_i")
@@ -44,6 +45,7 @@ def show_table(table, values: dict[str, float], tool=False):
     _typeset(figure.add_axes((0, 0.05, 0.44, 0.9)), rows, [*names[1:-1], "tool"] if tool else names[1:])
     ax = add_axes_3d(figure, (0.45, 0, 0.55, 1), elev=24, azim=-66)
     draw_frames_3d(chain_products(modified_dh(*cells.T[1:])), names, ax)
+    live.beside(lambda: live.robot(rows, values))
     return ax
 
 
@@ -109,7 +111,9 @@ def show_chain(table, values: dict[str, float], names=None, frames=(), tool=Fals
     -------
     matplotlib Axes (3D)
     """
-    return draw_chain(numbers(table, "table", (None, 5), values), names=names, frames=frames, tool=tool)
+    ax = draw_chain(numbers(table, "table", (None, 5), values), names=names, frames=frames, tool=tool)
+    live.beside(lambda: live.robot(list_rows(table), values, names=names))
+    return ax
 
 
 @own_result
