@@ -23,6 +23,7 @@ from pathlib import Path
 from time import perf_counter
 
 import numpy as np
+import pinocchio
 import sympy as sp
 from eaik.IK_DH import DhRobot
 from rich.console import Console
@@ -128,6 +129,58 @@ def inverse():
             ("EAIK's IK, C++", one_peer, "no more than 8 times", one <= 8 * one_peer),
             ("inverse, with names and reasons", usual, "no more than a tenth", one <= usual / 10),
         ]
+    ]
+
+
+def jacobians():
+    """Against a loop over Pinocchio's C++, as Python programs write it; in pieces that fit the cache, and one by one."""
+    arm = robots.rx90(a3=A3, d3=D3, limits=[(-4, 4)] * 6)  # without limits, Pinocchio holds cosines and sines
+    model = arm.to_pinocchio()
+    data, tool = model.createData(), model.getFrameId("tool")
+    q = random_joints()[:4096]
+    listed = list(q)
+    aligned = pinocchio.LOCAL_WORLD_ALIGNED
+
+    def theirs():
+        return [pinocchio.computeFrameJacobian(model, data, each, tool, aligned) for each in listed]
+
+    must_equal(np.array(theirs()[:50]), arm.jacobian(q[:50]), "Jacobians")
+    ours, peer, cosines, poses = best(
+        lambda: arm.jacobian(q),
+        theirs,
+        lambda: [(np.cos(column), np.sin(column)) for column in q.T],
+        lambda: arm.forward(q),
+        turns=20,
+    )
+    one, batch_of_one = best(
+        lambda: [arm.jacobian(each) for each in listed[:200]],
+        lambda: [arm.jacobian(each[None]) for each in listed[:200]],
+    )
+    return [
+        Row(
+            f"Jacobian, {len(q):,} postures of the RX-90; a loop over Pinocchio",
+            f"{1e6 * ours / len(q):.2f} us",
+            f"{1e6 * peer / len(q):.2f} us",
+            f"{peer / ours:.2f} x",
+            "no slower than Pinocchio in a loop",
+            peer >= ours,
+        ),
+        Row(
+            f"forward, {len(q):,} postures of the RX-90; cosines and sines alone",
+            f"{1e6 * poses / len(q):.2f} us",
+            f"{1e6 * cosines / len(q):.2f} us",
+            f"{poses / cosines:.2f} of it",
+            "no more than 3 times",
+            poses <= 3 * cosines,
+        ),
+        Row(
+            "Jacobian, one posture; a batch of one",
+            f"{1e6 * one / 200:.1f} us",
+            f"{1e6 * batch_of_one / 200:.1f} us",
+            f"{batch_of_one / one:.0f} x",
+            "8 x faster",
+            batch_of_one >= 8 * one,
+        ),
     ]
 
 
@@ -244,7 +297,7 @@ def main():
     table = Table(title="Reference solver against its peers")
     for name in ("what", "ours", "peer", "ratio", "target", ""):
         table.add_column(name, overflow="fold")
-    rows = [row for measure in (forward, inverse, symbolic, workspace_points, imports) for row in measure()]
+    rows = [row for measure in (forward, jacobians, inverse, symbolic, workspace_points, imports) for row in measure()]
     for row in rows:
         verdict = {True: "[green]met[/]", False: "[red]missed[/]", None: "[yellow]not run[/]"}
         table.add_row(row.what, row.ours, row.peer, row.ratio, row.target, verdict[row.met])

@@ -56,7 +56,7 @@ def test_shapes_and_batches():
     q = np.random.default_rng(0).uniform(-3, 3, (5, 3, 6))
     poses = robot.forward(q)
     assert poses.shape == (5, 3, 4, 4)
-    np.testing.assert_array_equal(robot.forward(q[2, 1]), poses[2, 1])
+    np.testing.assert_allclose(robot.forward(q[2, 1]), poses[2, 1], atol=1e-14)
     assert robot.forward(np.empty((0, 6))).shape == (0, 4, 4)
     frames = robot.table.chain.frames(q)
     assert frames.shape == (5, 3, 6, 4, 4)
@@ -69,7 +69,22 @@ def test_blocks_of_a_large_batch_agree_with_single_poses():
     q = np.random.default_rng(1).uniform(-3, 3, (9000, 6))
     poses = robots.RX90.forward(q)
     for i in (0, 4095, 4096, 8999):
-        np.testing.assert_array_equal(poses[i], robots.RX90.forward(q[i]))
+        np.testing.assert_allclose(poses[i], robots.RX90.forward(q[i]), atol=1e-14)
+
+
+@pytest.mark.parametrize("name", robots.names())
+def test_one_posture_is_that_of_many(name):
+    """Scalars and arrays go different ways; a Jacobian is also what differences of poses say."""
+    robot = getattr(robots, name)
+    q = np.random.default_rng(2).uniform(-2, 2, (3, robot.table.chain.joints))
+    for one, pose, J in zip(q, robot.forward(q), robot.jacobian(q)):
+        np.testing.assert_allclose(robot.forward(one), pose, atol=1e-14)
+        np.testing.assert_allclose(robot.jacobian(one), J, atol=1e-14)
+        step = 1e-6 * np.eye(len(one))
+        ahead, behind = robot.forward(one + step), robot.forward(one - step)
+        np.testing.assert_allclose((ahead - behind)[:, :3, 3].T / 2e-6, J[:3], atol=1e-8)
+        turns = (ahead - behind)[:, :3, :3] @ pose[:3, :3].T / 2e-6
+        np.testing.assert_allclose(np.stack([turns[:, 2, 1], turns[:, 0, 2], turns[:, 1, 0]]), J[3:], atol=1e-8)
 
 
 def test_rx90_vector():

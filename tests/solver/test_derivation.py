@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 import sympy as sp
 
-import dhm.derivation
+import dhm.paul
 from autograder.reference import robots
-from dhm import DHTable, Robot, Status
-from dhm.derivation import derivation
+from dhm import DHTable, Robot, Status, derivation
 
 HALF = np.pi / 2
 WRIST = [(0, 0, 0, 0, None), (0, 0, -HALF, 0, None), (0, 0, HALF, 0, None)]
@@ -125,7 +124,7 @@ def test_the_program_runs_alone(tmp_path):
 def test_the_docstring_is_true():
     import doctest
 
-    assert doctest.testmod(dhm.derivation).failed == 0
+    assert doctest.testmod(dhm.paul).failed == 0
 
 
 @pytest.mark.slow

@@ -16,6 +16,7 @@ Lengths in metres, angles in radians, arrays batch-first: q (..., n), poses (...
 from . import equations, orientation, workspace
 from .choice import misfits
 from .parallel import ThreeRPR, ThreeRRR
+from .paul import Derivation, derivation
 from .robot import Robot
 from .singularities import jacobian, mobility, rank
 from .solutions import Batch, Nearest, Solutions
@@ -29,6 +30,7 @@ __all__ = [
     "ClassicTable",
     "DHRow",
     "DHTable",
+    "Derivation",
     "Failure",
     "Flag",
     "Nearest",
@@ -39,6 +41,7 @@ __all__ = [
     "ThreeRPR",
     "ThreeRRR",
     "UrdfJoint",
+    "derivation",
     "equations",
     "jacobian",
     "misfits",

@@ -17,6 +17,7 @@ import sympy as sp
 from numpy.typing import ArrayLike
 
 from .geometry import modified_dh_of_cosines
+from .one_posture import OnePosture
 from .transforms import rot_x, trans_x
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 Vectors = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 """The axes x, y, z of a frame and its origin p, each (3, 1) or (3, N)."""
 
+_CYCLES = ((1, 2), (2, 0), (0, 1))  # of a vector product: its first entry is that of rows 1 and 2
 _BLOCK = 4096  # poses treated at a time, so that the intermediate arrays stay in the cache
 
 
@@ -137,6 +139,8 @@ class Chain:
             When the last axis of q is not n or a value is not finite.
         """
         q = self._checked(q)
+        if q.ndim == 1:
+            return self._one.forward(q.tolist())
         columns = q.reshape(-1, self.joints)
         poses = np.empty((len(columns), 4, 4))
         poses[:, 3] = (0.0, 0.0, 0.0, 1.0)
@@ -158,6 +162,46 @@ class Chain:
                 frames[:, i, :3, j] = column.T
         return frames.reshape(*q.shape[:-1], len(self.a), 4, 4)
 
+    def jacobian(self, q: ArrayLike) -> np.ndarray:
+        """Geometric Jacobians of the tool point in the base's axes: q (..., n) -> (..., 6, n); errors as for `forward`."""
+        q = self._checked(q)
+        if q.ndim == 1:
+            return self._one.jacobian(q.tolist())
+        columns = q.reshape(-1, self.joints)
+        found = np.empty((len(columns), 6, self.joints))
+        plain = np.array_equal(self.coupling, np.eye(*self.coupling.shape))
+        for start in range(0, len(columns), _BLOCK):
+            block = slice(start, start + _BLOCK)
+            of_rows = self._jacobian_of_rows(columns[block])
+            if plain:
+                found[block] = np.moveaxis(of_rows[:, : self.joints], 2, 0)
+            else:
+                found[block] = np.moveaxis(of_rows, 2, 0) @ self.coupling
+        return found.reshape(*q.shape[:-1], 6, self.joints)
+
+    def _jacobian_of_rows(self, q: np.ndarray) -> np.ndarray:
+        """The Jacobian with respect to the variable of each row, (6, rows, N)."""
+        axes: list[tuple[np.ndarray, np.ndarray]] = []
+        *_, (x, y, z, p) = self._walk(q, axes=axes)
+        end = self._with_tool(x, y, z, p)[3]
+        columns = np.empty((6, len(axes), len(q)))
+        product = np.empty(len(q))
+        for i, (axis, point) in enumerate(axes):
+            speed, turn = columns[:3, i], columns[3:, i]
+            if self.prismatic[i]:
+                speed[:], turn[:] = axis, 0.0
+                continue
+            turn[:] = axis
+            if point is end:  # as of a wrist whose centre is the tool
+                speed[:] = 0.0
+                continue
+            arm = end - point
+            for j, (k, m) in enumerate(_CYCLES):
+                np.multiply(axis[k], arm[m], out=speed[j])
+                np.multiply(axis[m], arm[k], out=product)
+                speed[j] -= product
+        return columns
+
     def _checked(self, q: ArrayLike) -> np.ndarray:
         q = np.asarray(q, dtype=float)
         if q.ndim == 0 or q.shape[-1] != self.joints:
@@ -167,15 +211,22 @@ class Chain:
         return q
 
     @cached_property
+    def _one(self) -> OnePosture:
+        return OnePosture.of(self)
+
+    @cached_property
     def _variables(self) -> list[list[tuple[int, float]]]:
         """For each row the joints that act on it, with their coefficients."""
         return [[(int(j), row[j]) for j in np.flatnonzero(row)] for row in self.coupling]
 
-    def _walk(self, q: np.ndarray, every_frame: bool = False) -> Iterator[Vectors]:
+    def _walk(
+        self, q: np.ndarray, every_frame: bool = False, axes: list[tuple[np.ndarray, np.ndarray]] | None = None
+    ) -> Iterator[Vectors]:
         """Yield the axes and origin (x, y, z, p) of frames, each (3, 1) or (3, N), base first.
 
         A frame is yielded at the end of each run of parallel axes, where it is needed to go
-        on, or after every row when ``every_frame`` is set.
+        on, or after every row when ``every_frame`` is set. The list ``axes`` gets direction and a point of each row's
+        axis, each (3, 1) or (3, N).
         """
         x, y, z, p = (self.base[:3, j : j + 1] for j in range(4))
         values = np.ascontiguousarray(q.T)
@@ -193,6 +244,8 @@ class Chain:
                 )
             else:
                 up = up * self.cos_alpha[i]
+            if axes is not None:
+                axes.append((z if up == 1.0 else up * z, p))
             variable = self.offset[i]
             for joint, coefficient in self._variables[i]:
                 turn = values[joint] if coefficient == 1.0 else coefficient * values[joint]

@@ -14,7 +14,6 @@ import numpy as np
 from .forward import Chain
 from .geometry import cross, wrap
 from .inverse import Branches
-from .singularities import chain_jacobian
 from .status import Failure, Flag
 
 _EXACT = 1e-13  # of a pose with the arm's size as unit: no step is worth its while below
@@ -90,7 +89,7 @@ class Task:
     def jacobian(self, q: np.ndarray) -> np.ndarray:
         """In sizes of the arm, (R, freedoms, n), for q (R, n)."""
         lengths = np.array([1 / self.size] * 3 + [1.0] * 3)[:, None]
-        return (lengths * chain_jacobian(self.chain, q) * self.unit)[:, : self.freedoms]
+        return (lengths * self.chain.jacobian(q) * self.unit)[:, : self.freedoms]
 
     def approached(self, q: np.ndarray, T: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Joint values (R, n) brought as near to poses (R, 4, 4) as Newton's method does, and the errors (R,) left.

@@ -27,17 +27,7 @@ def jacobian(table: DHTable, q: ArrayLike) -> np.ndarray:
     Source: D. Whitney, "Resolved motion rate control of manipulators and human prostheses", 1969,
     doi:10.1109/TMMS.1969.299896.
     """
-    return chain_jacobian(table.chain, q)
-
-
-def chain_jacobian(chain: Chain, q: ArrayLike) -> np.ndarray:
-    """`jacobian` of a table that is numbers already."""
-    frames = chain.frames(q)
-    axes = frames[..., :3, 2]
-    arms = chain.forward(q)[..., None, :3, 3] - frames[..., :3, 3]
-    slides = chain.prismatic[:, None]
-    columns = np.concatenate([np.where(slides, axes, np.cross(axes, arms)), np.where(slides, 0.0, axes)], axis=-1)
-    return np.swapaxes(columns, -1, -2) @ chain.coupling
+    return table.chain.jacobian(q)
 
 
 def rank(table: DHTable, q: ArrayLike, tol: float = 1e-9) -> np.ndarray:
@@ -74,4 +64,4 @@ def mobility(table: DHTable, samples: int = 20, seed: int = 0) -> int:
 def chain_mobility(chain: Chain, samples: int = 20, seed: int = 0, rows: int = 6) -> int:
     """`mobility` of a table that is numbers already; of the tool point with the first three rows only."""
     q = np.random.default_rng(seed).uniform(-1.0, 1.0, (samples, chain.joints))
-    return int(_rank(chain_jacobian(chain, q)[:, :rows]).max())
+    return int(_rank(chain.jacobian(q)[:, :rows]).max())

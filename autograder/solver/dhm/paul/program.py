@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 import sympy as sp
 from sympy.printing.pycode import PythonCodePrinter
 
-from .paul import U0, Solved, Step
+from .closure import U0, Solved, Step
 from .setting import Setting
 
 _HEAD = '''"""Inverse model of {name}: all postures of a pose, by Paul's method. Metres and radians."""

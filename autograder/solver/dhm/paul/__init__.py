@@ -1,7 +1,6 @@
 """The inverse model of a robot, written out as one does it by hand: step by step, with the type of each equation.
 
->>> from dhm import Robot
->>> from dhm.derivation import derivation
+>>> from dhm import Robot, derivation
 >>> arm = Robot.from_table([(0, 0, 0, 0, None), (0, 0.5, 0, 0, None)], "two links", tool=(0.4, 0, 0))
 >>> found = derivation(arm)
 >>> [(step.kind, step.unknowns) for step in found.steps]
@@ -26,7 +25,7 @@ from ..redundant import RedundantArm
 from ..robot import Robot
 from ..tables import DHTable
 from . import program, words
-from .paul import Closure, Equation, Solved, Step
+from .closure import Closure, Equation, Solved, Step
 from .setting import Setting, setting_of
 
 __all__ = ["Derivation", "Equation", "Solved", "Step", "derivation"]

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import sympy as sp
 
-from .paul import Equation, Solved, Step
+from .closure import Equation, Solved, Step
 from .setting import Setting
 
 _TYPES = {
