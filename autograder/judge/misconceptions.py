@@ -24,7 +24,7 @@ from dhkit.forms.dh_table import DH_COLUMNS
 from dhm.transforms import classic_dh
 
 from .question import Mistake, Step, Wrong, mistake
-from .steps import change_cell, change_rows, substitute
+from .steps import change_rows, substitute
 
 Rows = list[list]
 
@@ -139,23 +139,6 @@ def offset_missing(*rows: int, **other) -> Mistake:
     )
 
 
-def offset_misplaced(row: int, *into: int, **other) -> Mistake:
-    """The constant of a joint stands in the row of another joint."""
-
-    def moved(table, target):
-        offset = _constant(table[row - 1][4])
-        table = change_cell(row, "theta", lambda cell: cell - offset)(table)
-        return change_cell(target, "theta", lambda cell: cell + offset)(table)
-
-    return _entry(
-        "joint_offset_misplaced",
-        0.5,
-        "**A joint offset stands in the wrong row.** Draw X_(i-1) and X_i at q = 0, row by row: where do they differ?",
-        *(lambda table, target=target: moved(table, target) for target in into),
-        **other,
-    )
-
-
 def tool_left_out(**other) -> Mistake:
     """The last row, which carries the origin to the tool, is all zeros."""
     return _entry(
@@ -163,31 +146,6 @@ def tool_left_out(**other) -> Mistake:
         0.5,
         "**The tool length is missing.** The last row must bring the origin from the last joint to the hand.",
         lambda rows: [*rows[:-1], [0, 0, 0, 0, 0]],
-        **other,
-    )
-
-
-def origins_as_d(heights: Sequence, **other) -> Mistake:
-    """Relative joint origins are copied into column d."""
-    return _entry(
-        "relative_origins_as_d",
-        0.3,
-        "**Heights of joint origins were copied into column d.** d is measured along Z_i, from X_(i-1) to X_i, whatever "
-        "point of its axis a data sheet calls the joint's origin.",
-        lambda rows: [[*row[:3], height, row[4]] for row, height in zip(rows, heights, strict=True)],
-        **other,
-    )
-
-
-def hypotenuse(row: int, column: str, *legs, **other) -> Mistake:
-    """The straight distance between two joints stands where one of its components belongs."""
-    length = sympy.sqrt(sum(sympy.sympify(leg) ** 2 for leg in legs))
-    return _entry(
-        "hypotenuse_for_length",
-        0.5,
-        f"**In column {column} stands the straight distance between two joints.** a and d are two components of it: one "
-        "along X, one along Z.",
-        change_cell(row, column, lambda _: length),
         **other,
     )
 

@@ -86,7 +86,7 @@ class Arm:
     def in_words(self) -> str:
         """Its axes and its end effector in Markdown."""
         rows = (
-            f"| {number} | {'slides' if joint.slides else 'turns'}, ${_letter(joint.name)}$ "
+            f"| {number} | {'slides' if joint.slides else 'turns'}, ${said_letter(joint.name)}$ "
             f"| ${said_direction(joint.direction)}$ | ${said_point(joint.point)}$ |"
             for number, joint in enumerate(self.joints, 1)
         )
@@ -169,9 +169,10 @@ def said_sum(entry: Mapping[str, float]) -> str:
 def _terms(entry: Mapping[str, float]) -> Iterator[str]:
     for letter, factor in sorted(entry.items(), key=lambda term: term[1] < 0):
         size = "" if abs(factor) == 1 and letter else f"{abs(factor):.4g}"
-        yield f"{'-' if factor < 0 else '+'}{size}{_letter(letter)}"
+        yield f"{'-' if factor < 0 else '+'}{size}{said_letter(letter)}"
 
 
-def _letter(name: str) -> str:
+def said_letter(name: str) -> str:
+    """A letter with its number as an index, in LaTeX."""
     stem = name.rstrip("0123456789")
     return f"{stem}_{{{name[len(stem) :]}}}" if stem and stem != name else name

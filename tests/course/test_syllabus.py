@@ -26,7 +26,12 @@ README = (ROOT / "README.md").read_text()
 LECTURERS = (ROOT / "docs/lecturers.md").read_text()
 MODULES = [ast.parse(file.read_text()) for file in (ROOT / "autograder/questions").rglob("*.py")]
 # Robots that questions make with lengths or readings of their own.
-MADE_BY = {"planar": {"PLANAR_4R"}, "pen": {"PEN_A", "PEN_B", "PEN_C"}, "scara_centres": {"SCARA_EPFL"}}
+MADE_BY = {
+    "planar": {"PLANAR_4R"},
+    "pen": {"PEN_A", "PEN_B", "PEN_C"},
+    "scara_centres": {"SCARA_EPFL"},
+    "epfl_centres": {"EPFL_ARM"},
+}
 
 
 def asked():

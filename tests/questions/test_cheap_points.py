@@ -165,7 +165,7 @@ def filled(answer, value, *places):
 
 IDENTITY = np.eye(4, dtype=int).tolist()
 PARTS = [
-    ("direct_models.K", "five of six", lambda K: [*K[:4], IDENTITY, K[5]], 0.7),
+    ("direct_models.K", "four of five", lambda K: [*K[:3], IDENTITY, K[4]], 0.7),
     ("direct_models.K", "turns without their centres", lambda K: [[[*row[:3], int(i == 3)] for i, row in enumerate(M)] for M in K], 0.4),
     ("direct_models.K", "in reverse order", lambda K: K[::-1], 0.3),
     ("direct_models.wrong_cells", "one false alarm", lambda marks: filled(marks, 1, (2, 1, 1)), 0.7),

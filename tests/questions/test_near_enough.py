@@ -13,7 +13,9 @@ from autograder.judge import Family, kinds
 from autograder.judge.almost import ROUNDED as NOTE
 from autograder.judge.decode import decode
 from autograder.questions import exercises
+from autograder.questions.shared.sheets import read, reading_of
 from dhkit import wire
+from dhkit.sheets import sheet_of
 
 pytestmark = pytest.mark.slow
 
@@ -57,31 +59,23 @@ def test_constant_angles_may_be_typed_to_four_decimals(question):
     assert verdict(question, typed(right(question), 1)).share < 0.8
 
 
-def rx90(quarter, rows=slice(None)):
-    t1, t2, t3, t4, t5, t6, a3, d3 = sympy.symbols("t1:7 a3 d3")
-    table = [
-        (0, 0, 0, t1),
-        (0, quarter, 0, t2),
-        (a3, 0, 0, t3),
-        (0, -quarter, d3, t4),
-        (0, quarter, 0, t5),
-        (0, -quarter, 0, t6),
-    ]
-    total = sympy.eye(4)
-    for a, alpha, d, theta in table[rows]:
-        (ca, sa), (c, s) = ((sympy.cos(angle), sympy.sin(angle)) for angle in (alpha, theta))
-        total *= sympy.Matrix(
-            [[c, -s, 0, a], [s * ca, c * ca, -sa, -d * sa], [s * sa, c * sa, ca, d * ca], [0, 0, 0, 1]]
-        )
-    return total
-
-
-@pytest.mark.parametrize("id, rows", [("direct_models.T06", slice(None)), ("direct_models.U2", slice(2, None))])
+@pytest.mark.parametrize(("id", "rows"), [("direct_models.T06", slice(None)), ("direct_models.U2", slice(2, None))])
 def test_products_of_rounded_quarter_turns(id, rows):
     question = next(one for one in QUESTIONS if one.id == id)
+    mine = question.numbers(STUDENT)
+    right = question.answer(STUDENT)
+
+    def product(quarter, rows):
+        total = sympy.eye(4)
+        for row in sheet_of(mine).rows[rows]:
+            rounded = [sympy.sympify(cell).subs(sympy.pi, 2 * quarter) for cell in row]
+            total *= read(rounded, reading_of(mine.robot, mine.sheet))
+        return total
+
+    assert product(sympy.pi / 2, rows) == right
     for quarter, share in ((1.5708, 1), (1.570796, 1), (1.571, 0.8), (1.57, 0.8), (1.5, 0)):
-        assert verdict(question, rx90(quarter, rows)).share == share, quarter
-    assert verdict(question, rx90(1.5708, slice(2, None)).expand()).share == (id == "direct_models.U2")
+        assert verdict(question, product(quarter, rows)).share == share, quarter
+    assert verdict(question, product(1.5708, slice(2, None)).expand()).share == (id == "direct_models.U2")
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,8 @@
-"""Direct models: turns about fixed centres and the six-axis arm (EPFL slides), the RX-90 by its recursion (MECA 953 slides)."""
+"""Direct models: turns about fixed centres, misprints of the RX-90, an arm of the student's own and a robot from its data sheet."""
 
 from __future__ import annotations
+
+import operator
 
 import numpy as np
 
@@ -8,67 +10,45 @@ from autograder.judge import Question, mistake
 from autograder.judge.chain import SAME_SENSES
 from autograder.judge.misconceptions import (
     angle_not_summed,
-    angles_subtracted,
     arguments_in_degrees,
-    classic_matrix,
     classic_table,
-    hypotenuse,
-    offset_misplaced,
+    columns_exchanged,
     offset_missing,
-    one_factor_missing,
-    origins_as_d,
-    reversed_product,
     sign_of,
     summed_in_the_wrong_frame,
     symbol_negated,
     transposed_rotation,
 )
-from autograder.judge.steps import change_cell, negate, replace_entry, substitute
+from autograder.judge.steps import negate, substitute
 
+from . import own
 from .model import (
-    ABSOLUTE_WRIST,
+    ABSOLUTE_PEN,
     BLANKS,
-    CENTRES,
     D3,
-    D4,
-    ELBOW_AT_WRIST,
-    K_LISTS,
     L1,
     L2,
     L4,
     NO_CELL,
-    PRINTED_U0,
-    PRINTED_U2,
-    ROWS,
-    RX90,
+    PEN,
+    PEN_BASE_FIRST,
+    PEN_HANGS,
+    PEN_STIFF,
     TOOL_BASE_FIRST,
     TOOL_POINT,
-    TRANSFORMS,
     TURNED_CENTRE,
-    U0,
-    U1,
-    U2,
-    U3,
-    WRIST,
-    WRIST_AT_ELBOW,
-    WRIST_BASE_FIRST,
     WRONG_T56,
     WRONG_U3,
     WRONG_U4,
-    change_last_columns,
-    draw_angles,
-    forward,
+    e,
     leave_unturned,
     mark_columns,
-    name_posture,
-    offset_as_link_length,
-    or_with,
     planar_tool,
     t1,
     t2,
     t3,
     t4,
-    turn_backwards,
+    t5,
     unmark,
     w,
 )
@@ -142,116 +122,45 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "direct_models.K",
-        reference=K_LISTS,
-        mistakes=(
-            mistake(
-                "sign_of_translation",
-                0.5,
-                "**The last columns have the wrong sign: R p - p.** Each K must leave every point of its own axis where it is. "
-                "Try it with the centre.",
-                change_last_columns(lambda column, i: -column),
-            ),
-            mistake(
-                "centre_as_translation",
-                0.4,
-                "**The last columns are the centres themselves.** They must be p - R p: what the turn about the origin takes "
-                "away from p. See the slide of K5 and K6.",
-                change_last_columns(lambda column, i: CENTRES[i]),
-            ),
-            mistake(
-                "centres_missing",
-                0.4,
-                "**The turns have lost their centres: all six go about the origin.** Which axes do not pass through it, and what does a turn "
-                "about the origin do to a point of theirs?",
-                change_last_columns(lambda column, i: [0, 0, 0]),
-            ),
-            mistake(
-                "elbow_at_the_wrist",
-                0.6,
-                "**K3 and K5 turn about the same height.** Axis 3 is at the elbow, axis 5 at the wrist; read both heights from "
-                "the figure.",
-                replace_entry(2, ELBOW_AT_WRIST),
-                replace_entry(4, WRIST_AT_ELBOW),
-            ),
-            mistake(
-                "opposite_sense",
-                0.5,
-                "**The turns go the wrong way round.** Positive is about +x and +z, thumb along the axis, as in the K5 and K6 of "
-                "the slide.",
-                turn_backwards,
-            ),
-        ),
-        partial=0.7,
-    ),
-    Question(
-        "direct_models.wrist",
-        reference=WRIST,
+        "direct_models.locked",
+        reference=PEN,
         mistakes=(
             angle_not_summed(
-                ABSOLUTE_WRIST,
-                feedback="**The forearm is placed as if t3 were counted from the vertical.** t3 goes from the upper arm to the "
-                "forearm: with t3 = 0 the arm is stretched, whatever t2 is.",
+                *ABSOLUTE_PEN,
+                feedback="**An angle is counted from the wrong line.** t3 goes from the upper arm to the forearm, t5 from the forearm to "
+                "the hand: with both zero the arm is stretched, whatever t2 is.",
+            ),
+            mistake(
+                "pen_not_turned",
+                0.5,
+                "**The pen has not turned with joint 5.** h is added straight up, or along the forearm: about which line, and by which "
+                "angle in all, has the hand turned?",
+                lambda _: PEN_HANGS,
+                lambda _: PEN_STIFF,
             ),
             mistake(
                 "base_first_with_fixed_centres",
                 0.3,
                 "**The turns are multiplied in the reverse order.** K1 stands on the left, and the hand's K nearest to the "
                 "point: only then is every centre still in the reference position.",
-                lambda _: WRIST_BASE_FIRST,
+                lambda _: PEN_BASE_FIRST,
             ),
             mistake(
                 "leans_the_other_way",
                 0.5,
                 "**The arm leans to the other side.** A positive turn about x carries z towards -y: thumb along x, and see where "
                 "the fingers go.",
-                substitute({t2: -t2, t3: -t3}),
+                substitute({t2: -t2, t3: -t3, t5: -t5}),
             ),
             mistake(
-                "d3_left_out",
+                "offset_left_out",
                 0.6,
-                "**The offset D3 is missing.** The plane of the arm does not contain axis 1.",
+                "**A length across the plane of the arm is missing.** D3 and e both point along x, out of the plane in which joints "
+                "2, 3 and 5 turn: none of the three changes them.",
                 substitute({D3: 0}),
+                substitute({e: 0}),
             ),
         ),
-    ),
-    Question(
-        "direct_models.table",
-        reference=ROWS,
-        mistakes=(
-            offset_missing(1, 2, 3, 4, 5, 6),
-            classic_table(),
-            mistake(
-                "offset_as_link_length",
-                0.5,
-                "**D3 stands in column a.** It is measured along axis 3, from one common normal to the next, and not across "
-                "from axis to axis: axes 3 and 4 meet.",
-                offset_as_link_length,
-            ),
-            sign_of("alpha", 2, 4, 5, 6),
-            offset_misplaced(3, 2),
-            or_with(
-                change_cell(3, "d", lambda _: 0),
-                hypotenuse(
-                    4,
-                    "d",
-                    D3,
-                    D4,
-                    feedback="**In column d stands the straight distance from elbow to wrist.** d runs along one Z axis: which two axes "
-                    "do its two components follow?",
-                ),
-            ),
-            or_with(
-                change_cell(3, "a", lambda _: D3),
-                origins_as_d(
-                    (0, 0, L2, D4, 0, 0),
-                    feedback="**Heights of the figure were copied into column d.** d is measured along Z_i, from X_(i-1) to X_i: is "
-                    "every Z of this arm upright?",
-                ),
-            ),
-        ),
-        partial=0.4,
-        pinned=SAME_SENSES,
     ),
     Question(
         "direct_models.wrong_cells",
@@ -289,50 +198,192 @@ QUESTIONS = (
         places=False,
     ),
     Question(
-        "direct_models.U2",
-        reference=U2,
+        "direct_models.K",
+        reference=own.turns,
         mistakes=(
             mistake(
-                "printed_5t6_used",
-                0.6,
-                "**You have used the 5T6 that is printed on the slide; it is an erratum.** Its alpha has another sign than row 6 "
-                "of the table: see your marks in the question before.",
-                lambda _: PRINTED_U2,
+                "sign_of_translation",
+                0.5,
+                "**The last columns have the wrong sign: R p - p.** Each K must leave every point of its own axis where it is. "
+                "Try it with the centre.",
+                wrong={"column": "R p - p"},
             ),
-            reversed_product(*TRANSFORMS[2:]),
-            classic_matrix(*(row.parameters for row in RX90.rows[2:]), note="classic_matrices"),
-            one_factor_missing(
-                U3, feedback="**The recursion stopped one step too early.** This is U3 = 3T6: joint 3 is not in it."
+            mistake(
+                "centre_as_translation",
+                0.4,
+                "**The last columns are the centres themselves.** They must be p - R p: what the turn about the origin takes "
+                "away from p.",
+                wrong={"column": "p"},
+            ),
+            mistake(
+                "centres_missing",
+                0.4,
+                "**The turns have lost their centres: all go about the origin.** Which axes do not pass through it, and what does a turn "
+                "about the origin do to a point of theirs?",
+                wrong={"column": "0"},
+            ),
+            mistake(
+                "centres_from_the_joint_before",
+                0.4,
+                "**Your centres are counted from the joint before.** Every centre is a point of frame 0, in the reference position.",
+                wrong={"column": "step"},
+            ),
+            mistake(
+                "senses_overlooked",
+                0.6,
+                "**An axis that points against one of frame 0 is turned the wrong way.** Thumb along the arrow: a positive turn "
+                "about -Z_0 is a negative one about Z_0.",
+                wrong={"senses": False},
+            ),
+            mistake(
+                "opposite_sense",
+                0.5,
+                "**All turns go the wrong way round.** Positive is right-handed, thumb along the arrow of the axis.",
+                wrong={"sense": -1},
+            ),
+        ),
+        partial=0.7,
+    ),
+    Question(
+        "direct_models.end_point",
+        reference=own.end_point,
+        mistakes=(
+            mistake(
+                "base_first_with_fixed_centres",
+                0.3,
+                "**The turns are multiplied in the reverse order.** K1 stands on the left, and the last K nearest to the "
+                "point: only then is every centre still in the reference position.",
+                wrong={"order": "base first"},
+            ),
+            mistake(
+                "senses_overlooked",
+                0.6,
+                "**An axis that points against one of frame 0 is turned the wrong way.** Thumb along the arrow: a positive turn "
+                "about -Z_0 is a negative one about Z_0.",
+                wrong={"senses": False},
+            ),
+            mistake(
+                "opposite_sense",
+                0.5,
+                "**All turns go the wrong way round.** Positive is right-handed, thumb along the arrow of the axis.",
+                wrong={"sense": -1},
+            ),
+            mistake(
+                "length_left_out",
+                0.6,
+                "**The length h is missing.** Put zero for all angles: do you get the point that the statement gives?",
+                substitute({"h": 0}),
+            ),
+        ),
+    ),
+    Question(
+        "direct_models.table",
+        reference=own.rows,
+        mistakes=(
+            classic_table(),
+            columns_exchanged("a", "d"),
+            columns_exchanged("a", "alpha"),
+            own.in_rows(offset_missing(1), 4, own.without_constant),
+            own.in_rows(sign_of("alpha", 1), 2, operator.neg),
+            own.in_rows(sign_of("d", 1), 3, operator.neg),
+        ),
+        partial=0.4,
+        pinned=SAME_SENSES,
+    ),
+    Question(
+        "direct_models.reading",
+        reference=own.reading,
+        mistakes=(
+            mistake(
+                "lengths_exchanged",
+                0.3,
+                "**The convention is right, the two lengths are exchanged.** Which of the two belongs to the X axis? Put the example "
+                "into your product.",
+                own.other_letter(False, True),
+            ),
+            mistake(
+                "other_convention",
+                0.3,
+                "**The lengths are right, the convention is the other one.** In the classic form a row begins with the joint, in the "
+                "modified one it ends with it. Put the example into your product.",
+                own.other_letter(True, False),
+            ),
+            mistake(
+                "misread",
+                0.0,
+                "**Neither the convention nor the order of the lengths is right.** Multiply the six matrices of your reading, put the "
+                "example in, and compare the last column.",
+                own.other_letter(True, True),
+            ),
+        ),
+    ),
+    Question(
+        "direct_models.U2",
+        reference=own.from_frame_2,
+        mistakes=(
+            mistake(
+                "one_step_short",
+                0.4,
+                "**The recursion stopped one step too early.** This is U3 = 3T6: joint 3 is not in it.",
+                wrong={"after": 3},
+            ),
+            mistake(
+                "reversed_product",
+                0.3,
+                "**The matrices are multiplied in the reverse order.** From left to right: base first, end effector last.",
+                wrong={"order": "end first"},
+            ),
+            mistake(
+                "other_convention",
+                0.4,
+                "**The sheet is read in the other convention.** See the question before: which point does the example give?",
+                wrong={"convention": False},
+            ),
+            mistake(
+                "lengths_exchanged",
+                0.4,
+                "**The two lengths of every row are exchanged.** See the question before: which point does the example give?",
+                wrong={"columns": False},
             ),
             transposed_rotation(),
         ),
     ),
     Question(
         "direct_models.T06",
-        reference=U0,
+        reference=own.product,
         mistakes=(
             mistake(
-                "printed_5t6_used",
-                0.6,
-                "**You have used the 5T6 that is printed on the slide; it is an erratum.** Its alpha has another sign than row 6 "
-                "of the table. The twelve elements printed at the end of the slides are right: compare with them.",
-                lambda _: PRINTED_U0,
+                "one_step_short",
+                0.4,
+                "**The recursion stopped one step too early.** This is U1 = 1T6: joint 1 is not in it.",
+                wrong={"after": 1},
             ),
-            reversed_product(*TRANSFORMS),
-            angles_subtracted(
-                t3,
-                feedback="**theta2 and theta3 are subtracted.** Axes 2 and 3 are parallel and of the same sense: their angles add "
-                "up, and the slides write C23 and S23.",
+            mistake(
+                "reversed_product",
+                0.3,
+                "**The matrices are multiplied in the reverse order.** From left to right: base first, end effector last.",
+                wrong={"order": "end first"},
             ),
-            classic_matrix(*(row.parameters for row in RX90.rows), note="classic_matrices"),
-            one_factor_missing(
-                U1, feedback="**The recursion stopped one step too early.** This is U1 = 1T6: joint 1 is not in it."
+            mistake(
+                "other_convention",
+                0.4,
+                "**The sheet is read in the other convention.** Put the example of the sheet into your matrix: is the last column "
+                "the point?",
+                wrong={"convention": False},
             ),
+            mistake(
+                "lengths_exchanged",
+                0.4,
+                "**The two lengths of every row are exchanged.** Put the example of the sheet into your matrix: is the last column "
+                "the point?",
+                wrong={"columns": False},
+            ),
+            transposed_rotation(),
         ),
     ),
     Question(
         "direct_models.forward",
-        reference=forward,
+        reference=own.forward,
         mistakes=(
             mistake(
                 "tool_left_out",
@@ -353,9 +404,16 @@ QUESTIONS = (
                 "**The bend of {bend} degrees is taken as {bend} radians.** cos and sin count in radians.",
                 wrong={"bend": "degrees"},
             ),
+            mistake(
+                "other_convention",
+                0.4,
+                "**The sheet is read in the other convention.** Without the tool, does your function give the point of the sheet's "
+                "example?",
+                wrong={"convention": False},
+            ),
             arguments_in_degrees({"angles": "degrees"}),
         ),
-        probe=draw_angles,
-        case=name_posture,
+        probe=own.draw_joint_values,
+        case=own.name_case,
     ),
 )

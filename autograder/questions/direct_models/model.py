@@ -1,22 +1,16 @@
-"""Direct models: turns about fixed centres, the six-axis arm of the EPFL slides, the RX-90 with a student's tool."""
+"""What the lecture documents leave to do: turns about fixed centres, a pen in the EPFL arm, misprints of the RX-90."""
 
 from __future__ import annotations
-
-from dataclasses import replace
-from functools import lru_cache
 
 import numpy as np
 import sympy
 
-from autograder.reference import DHTable, robots
 from autograder.reference.centres import epfl_centres, scara_centres
-from dhm.transforms import modified_dh, rot_z
-
-from ..shared.tables import list_rows
+from dhm.transforms import rot_z
 
 t1, t2, t3, t4, t5, t6 = ANGLES = sympy.symbols("t1:7")
-L1, L2, L4, D3, D4, w = sympy.symbols("L1 L2 L4 D3 D4 w")
-C, S, HALF = sympy.cos, sympy.sin, sympy.pi / 2
+L1, L2, L4, D3, D4, w, e, h = sympy.symbols("L1 L2 L4 D3 D4 w e h")
+C, S = sympy.cos, sympy.sin
 
 
 # ---------------------------------------------------------------- turns in the plane
@@ -43,70 +37,29 @@ def leave_unturned(*lengths) -> list[sympy.Expr]:
     return [entry + (length if length in lengths else 0) for entry, length in zip(turned, (L4, w))]
 
 
-# ---------------------------------------------------------------- six turns in space
+# ---------------------------------------------------------------- a pen in the six-axis arm, joints 4 and 6 locked
 
 
-def as_lists(matrices) -> list:
-    return [matrix.tolist() for matrix in matrices]
+def pen(*heading, aside=e, offset=D3) -> list[sympy.Expr]:
+    """The tip of the pen, if upper arm, forearm and hand lean by these angles from the vertical."""
+    lean = -sum(length * S(angle) for length, angle in zip((L2, D4, h), heading))
+    up = sum(length * C(angle) for length, angle in zip((L2, D4, h), heading))
+    return [
+        (offset + aside) * C(t1) - lean * S(t1),
+        (offset + aside) * S(t1) + lean * C(t1),
+        up,
+    ]
 
 
-K = epfl_centres(ANGLES, D3, L2, D4)
-K_LISTS = as_lists(K)
-WRIST_0 = sympy.Matrix([D3, 0, L2 + D4, 1])
-# Turns 4, 5 and 6 leave the wrist centre alone.
-WRIST = list((K[0] * K[1] * K[2] * WRIST_0)[:3, 0])
-WRIST_BASE_FIRST = list((K[2] * K[1] * K[0] * WRIST_0)[:3, 0])
-ABSOLUTE_WRIST = list((K[0] * sympy.Matrix([D3, -L2 * S(t2) - D4 * S(t3), L2 * C(t2) + D4 * C(t3), 1]))[:3, 0])
-CENTRES = [[0, 0, 0], [0, 0, 0], [0, 0, L2], [D3, 0, 0], [0, 0, L2 + D4], [D3, 0, 0]]
-ELBOW_AT_WRIST = epfl_centres(ANGLES, D3, L2 + D4, 0)[2].tolist()
-WRIST_AT_ELBOW = epfl_centres(ANGLES, D3, L2, 0)[4].tolist()
-
-
-def change_last_columns(change):
-    """A step on six matrices: the translation of each replaced by `change(translation, index)`."""
-
-    def step(matrices):
-        changed = []
-        for i, matrix in enumerate(map(sympy.Matrix, matrices)):
-            new = matrix.copy()
-            new[:3, 3] = sympy.Matrix(change(matrix[:3, 3], i))
-            changed.append(new.tolist())
-        return changed
-
-    return step
-
-
-def turn_backwards(matrices) -> list:
-    """The six matrices with every angle in the opposite sense."""
-    return as_lists(
-        matrix.subs({t: -t for t in matrix.free_symbols.intersection(ANGLES)}) for matrix in map(sympy.Matrix, matrices)
-    )
-
-
-TABLE = robots.EPFL_ARM.table
-ROWS = list_rows(TABLE)
-
-
-def offset_as_link_length(rows):
-    """D3 in column a of the row of joint 4."""
-    rows = [list(row) for row in rows]
-    rows[3][1], rows[2][3] = rows[3][1] + rows[2][3], sympy.S.Zero
-    return rows
-
-
-def or_with(step, about):
-    """A mistake of one step, alone or with a second step behind it."""
-    (first,) = about.steps
-    return replace(about, steps=(first, lambda rows: step(first(rows))))
+PEN = pen(t2, t2 + t3, t2 + t3 + t5)
+ABSOLUTE_PEN = (pen(t2, t3, t5), pen(t2, t2 + t3, t5), pen(t2, t3, t3 + t5))
+PEN_HANGS = pen(t2, t2 + t3, 0)
+PEN_STIFF = pen(t2, t2 + t3, t2 + t3)
+K = [matrix.subs({t4: 0, t6: 0}) for matrix in epfl_centres(ANGLES, D3, L2, D4)]
+PEN_BASE_FIRST = list((K[4] * K[2] * K[1] * K[0] * sympy.Matrix([D3 + e, 0, L2 + D4 + h, 1]))[:3, 0])
 
 
 # ---------------------------------------------------------------- the RX-90
-
-RX90 = robots.RX90.table
-TRANSFORMS = RX90.transforms()
-U0, U1, U2, U3, *_ = RX90.recursion()
-# Row 6 with alpha = +90 degrees: the slide's page of matrices.
-PRINTED_U0, _, PRINTED_U2, *_ = DHTable([*RX90.rows[:5], (0, 0, HALF, 0, t6)]).recursion()
 
 # 1 marks a printed cell that differs from the product of the table (a test compares them).
 WRONG_T56 = [[0, 0, 0, 0], [0, 0, 1, 0], [1, 1, 0, 0], [0, 0, 0, 0]]
@@ -131,43 +84,3 @@ def unmark(cell):
         return marks.tolist()
 
     return step
-
-
-# ---------------------------------------------------------------- a tool
-
-
-@lru_cache
-def rx90(a3, d3) -> DHTable:
-    return RX90.at({"a3": a3, "d3": d3})
-
-
-def forward(*q, mine, tool="right", bend="radians", angles="radians") -> np.ndarray:
-    """The pose of the student's tool on the RX-90, (4, 4), for six joint angles.
-
-    `tool` may be ``"left"``, multiplied from the left, or ``"none"``; the tool's `bend` and the joint `angles` may be
-    taken in ``"degrees"``.
-    """
-    arm = rx90(mine.a3, mine.d3).forward(np.radians(q) if angles == "degrees" else q)
-    if tool == "none":
-        return arm
-    step = tool_matrix(mine.reach, mine.bend if bend == "degrees" else np.radians(mine.bend), mine.length)
-    return step @ arm if tool == "left" else arm @ step
-
-
-@lru_cache
-def tool_matrix(reach, bend, length) -> np.ndarray:
-    """The step from frame 6 to the tool frame."""
-    return np.array(modified_dh(reach, bend, length, 0).evalf(), dtype=float)
-
-
-def draw_angles(rng: np.random.Generator) -> list[list[float]]:
-    """Argument lists for `forward`: random postures, then quarter turns."""
-    random = [[float(angle) for angle in rng.uniform(-3, 3, 6)] for _ in range(6)]
-    quarters = [[float(k) * np.pi / 2 for k in rng.integers(-2, 3, 6)] for _ in range(3)]
-    return [*random, *quarters]
-
-
-def name_posture(*q) -> str:
-    """The case a list of joint angles belongs to, in words."""
-    quarters = np.divide(q, np.pi / 2)
-    return "quarter turns" if np.allclose(quarters, quarters.round()) else "random postures"

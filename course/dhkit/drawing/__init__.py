@@ -8,6 +8,7 @@ One style for the whole course: x red and solid, y green and dashed, z blue and 
 that a grey print and a colour-blind reader lose nothing. Links are grey; darker means a later posture.
 """
 
+from .arms import draw_arm
 from .chains import chain_frames, draw_chain
 from .elbow_workspace import draw_elbow_workspace, draw_section
 from .frames import draw_dh_parameters, draw_frames_3d, mark_frame, mark_path
@@ -70,6 +71,7 @@ __all__ = [
     "draw_3rpr",
     "draw_3rrr",
     "draw_aligned_wrist",
+    "draw_arm",
     "draw_arm_plane",
     "draw_arm_turns",
     "draw_assembly_modes",

@@ -6,7 +6,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..arms import EXTENDED, Arm, said_sum
+from ..arms import EXTENDED, Arm, said_letter, said_sum
+from ..geometry import rigid_transform, rotation
 from .bodies import HAND, JOINT, LINK, Bodies
 from .frames import ask_for_frames, merge_axes
 from .labels import Labels
@@ -16,14 +17,16 @@ from .view import fit_3d, new_axes_3d, view_axes
 
 
 @styled
-def draw_arm(arm: Arm, *, elev=22.0, azim=-60.0):
+def draw_arm(arm: Arm, q=None, *, end_effector=True, elev=22.0, azim=-60.0):
     """Draw an arm with its joint axes, its lengths, frame 0 and the frame of the end effector.
-
-    Turning joints stand at zero, sliding ones are drawn out a little.
 
     Parameters
     ----------
     arm : Arm
+    q : sequence of float, optional
+        Joint values, radians and metres; by default turning joints stand at zero, sliding ones are drawn out a little.
+    end_effector : bool
+        Draw the frame of the end effector.
     elev, azim : float, in degrees
         From where it is seen.
 
@@ -31,8 +34,11 @@ def draw_arm(arm: Arm, *, elev=22.0, azim=-60.0):
     -------
     matplotlib Axes (3D)
     """
-    out = {joint.name: EXTENDED for joint in arm.joints if joint.slides}
-    ways = _ways(arm, out)
+    if q is None:
+        q = [EXTENDED if joint.slides else 0.0 for joint in arm.joints]
+    out = dict(zip((joint.name for joint in arm.joints), map(float, q), strict=True))
+    moves = _moves(arm, out)
+    ways = _ways(arm, out, moves)
     unit = sum(np.linalg.norm(end - start) for start, end, _ in ways) or 1.0
     ax = new_axes_3d(elev, azim)
     bodies, labels, size = Bodies(ax, unit), Labels(), 0.13 * unit
@@ -41,33 +47,47 @@ def draw_arm(arm: Arm, *, elev=22.0, azim=-60.0):
     for start, end, _ in ways:
         bodies.add_tube(start, end, radius, LINK)
         bodies.add_ball(end, radius, LINK)
-    centres = _centres(arm, out, 2 * radius)
-    for joint, centre in zip(arm.joints, centres):
-        along = np.array(joint.direction, float)
+    lines = _lines(arm, out, moves, 2 * radius)
+    for joint, (centre, along) in zip(arm.joints, lines):
         if joint.slides:
             bodies.add_box(centre, _axes_about(along), (1.6 * radius, 1.6 * radius, 2.2 * radius), JOINT)
         else:
             bodies.add_tube(centre - 2 * radius * along, centre + 2 * radius * along, 1.8 * radius, JOINT, caps=True)
-    end = arm.at(arm.origin, out)
-    bodies.add_ball(end, 1.3 * radius, HAND)
+    end = moves[-1] @ _end_frame(arm, out)
+    bodies.add_ball(end[:3, 3], 1.3 * radius, HAND)
     bodies.draw(ax)
-    extent = [bodies.points()]
-    extent += _draw_axes(ax, labels, arm, centres, size)
-    frames = np.array([np.eye(4), _end_frame(arm, end)])
-    named = [axis for axis in merge_axes(frames, [0, arm.frame], "xyz") if axis.label not in _named(arm)]
-    extent += ask_for_frames(ax, labels, named, size, width=1.8)
-    _name_lengths(ax, labels, ways, radius)
+    extent = [bodies.points(), *_draw_axes(ax, labels, arm, lines, size)]
+    frames, names = np.array([np.eye(4), end]), [0, arm.frame]
+    shown = merge_axes(frames, names, "xyz") if end_effector else merge_axes(frames[:1], names[:1], "xyz")
+    extent += ask_for_frames(ax, labels, [axis for axis in shown if axis.label not in _named(arm)], size, width=1.8)
+    _name_lengths(ax, labels, ways)
     fit_3d(ax, np.vstack(extent), True, pad=0.42)
     labels.place(ax)
     return ax
 
 
-def _ways(arm: Arm, out) -> list[tuple[np.ndarray, np.ndarray, str]]:
+def end_frame(arm: Arm, q) -> np.ndarray:
+    """The frame of the end effector, (4, 4), for joint values in radians and metres."""
+    values = dict(zip((joint.name for joint in arm.joints), map(float, q), strict=True))
+    return _moves(arm, values)[-1] @ _end_frame(arm, values)
+
+
+def _moves(arm: Arm, values) -> list[np.ndarray]:
+    """What the turning joints have done to each link, from the base on, (4, 4) each: n + 1 of them."""
+    moves = [np.eye(4)]
+    for joint in arm.joints:
+        axes, point = _axes_about(np.array(joint.direction, float)), arm.at(joint.point, values)
+        turn = axes @ rotation("z", 0.0 if joint.slides else values[joint.name]) @ axes.T
+        moves.append(moves[-1] @ rigid_transform(turn, point - turn @ point))
+    return moves
+
+
+def _ways(arm: Arm, values, moves) -> list[tuple[np.ndarray, np.ndarray, str]]:
     """The straight pieces of the links, with the length that each has in letters: to the next axis, then along it."""
     stops = [(joint.point, np.array(joint.direction, float)) for joint in arm.joints]
     stops.append((arm.origin, np.array(arm.z, float)))
     ways, before = [], ({}, {}, {})
-    for point, along in stops:
+    for (point, along), move in zip(stops, moves):
         # What the two points differ by, in letters, part by part: across the axis first.
         change = [_difference(after, earlier) for after, earlier in zip(point, before)]
         across = [{} if abs(direction) == 1 else entry for entry, direction in zip(change, along)]
@@ -75,7 +95,7 @@ def _ways(arm: Arm, out) -> list[tuple[np.ndarray, np.ndarray, str]]:
         for start, end in pairwise((before, corner, point)):
             steps = [_difference(after, earlier) for after, earlier in zip(end, start)]
             moved = [entry for entry in steps if entry]
-            here, there = arm.at(start, out), arm.at(end, out)
+            here, there = (move[:3, :3] @ arm.at(one, values) + move[:3, 3] for one in (start, end))
             if np.linalg.norm(there - here) > 1e-9:
                 ways.append((here, there, said_sum(_positive(moved[0])) if len(moved) == 1 else ""))
         before = point
@@ -95,16 +115,20 @@ def _positive(entry) -> dict[str, float]:
     return {letter: abs(factor) for letter, factor in entry.items()} if len(entry) == 1 else dict(entry)
 
 
-def _centres(arm: Arm, out, half) -> list[np.ndarray]:
-    """Where the bodies of the joints stand: those that lie on one another are parted along their own axes."""
-    centres: list[np.ndarray] = []
-    for joint in arm.joints:
+def _lines(arm: Arm, values, moves, half) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Where the bodies of the joints stand, and the directions of their axes.
+
+    Joints that lie on one another are parted along their own axes.
+    """
+    lines: list[tuple[np.ndarray, np.ndarray]] = []
+    for joint, move in zip(arm.joints, moves):
         # A guide stands where the sliding begins.
-        centre = arm.at(joint.point, out | {joint.name: 0.0} if joint.slides else out)
-        if any(np.linalg.norm(centre - other) < 1.6 * half for other in centres):
-            centre = centre + 2.4 * half * np.array(joint.direction, float)
-        centres.append(centre)
-    return centres
+        point = arm.at(joint.point, values | {joint.name: 0.0} if joint.slides else values)
+        centre, along = move[:3, :3] @ point + move[:3, 3], move[:3, :3] @ np.array(joint.direction, float)
+        if any(np.linalg.norm(centre - other) < 1.6 * half for other, _ in lines):
+            centre = centre + 2.4 * half * along
+        lines.append((centre, along))
+    return lines
 
 
 def _axes_about(along: np.ndarray) -> np.ndarray:
@@ -114,26 +138,21 @@ def _axes_about(along: np.ndarray) -> np.ndarray:
     return np.column_stack([side, np.cross(along, side), along])
 
 
-def _end_frame(arm: Arm, origin: np.ndarray) -> np.ndarray:
-    x, z = np.array(arm.x, float), np.array(arm.z, float)
-    frame = np.eye(4)
-    frame[:3] = np.column_stack([x, np.cross(z, x), z, origin])
-    return frame
+def _end_frame(arm: Arm, values) -> np.ndarray:
+    return rigid_transform(np.column_stack([arm.x, np.cross(arm.z, arm.x), arm.z]), arm.at(arm.origin, values))
 
 
-def _draw_axes(ax, labels, arm: Arm, centres, size) -> list[np.ndarray]:
+def _draw_axes(ax, labels, arm: Arm, lines, size) -> list[np.ndarray]:
     """Centre lines of the joints, with an arrow for the sense and the name of the joint."""
     ends, tips = [], []
-    for number, (joint, centre) in enumerate(zip(arm.joints, centres), 1):
-        along = np.array(joint.direction, float)
+    for number, (joint, (centre, along)) in enumerate(zip(arm.joints, lines), 1):
         reach = 1.35 * size
         while any(np.linalg.norm(centre + reach * along - tip) < 0.5 * size for tip in tips):
             reach += 0.8 * size  # joints on one line: each has an arrowhead of its own
         low, high = centre - 1.1 * size * along, centre + reach * along
         ax.plot(*zip(low, high), color=SOFT, lw=1, ls=CENTRE_LINE, zorder=2)
         draw_arrow_3d(ax, high - 0.5 * size * along, high, AXIS_COLOURS["z"], AXIS_DASHES["z"], width=1.5)
-        stem = joint.name.rstrip("0123456789")
-        labels.ask(high, f"$Z_{{{number}}}\\ ({stem}_{{{joint.name[len(stem) :]}}})$", along, AXIS_COLOURS["z"])
+        labels.ask(high, f"$Z_{{{number}}}\\ ({said_letter(joint.name)})$", along, AXIS_COLOURS["z"])
         tips.append(high)
         ends += [low[None], high[None]]
     return ends
@@ -144,7 +163,7 @@ def _named(arm: Arm) -> set[str]:
     return {f"$Z_{{{len(arm.joints)}}}$"} if tuple(arm.z) == tuple(arm.joints[-1].direction) else set()
 
 
-def _name_lengths(ax, labels, ways, radius) -> None:
+def _name_lengths(ax, labels, ways) -> None:
     for start, end, text in ways:
         labels.avoid(start + np.outer(np.linspace(0, 1, 9), end - start))
         if text:
