@@ -296,14 +296,14 @@ QUESTIONS = (
         mistakes=(
             mistake(
                 "lengths_exchanged",
-                0.3,
+                0.0,
                 "**The convention is right, the two lengths are exchanged.** Which of the two belongs to the X axis? Put the example "
                 "into your product.",
                 own.other_letter(False, True),
             ),
             mistake(
                 "other_convention",
-                0.3,
+                0.0,
                 "**The lengths are right, the convention is the other one.** In the classic form a row begins with the joint, in the "
                 "modified one it ends with it. Put the example into your product.",
                 own.other_letter(True, False),
