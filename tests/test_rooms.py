@@ -21,7 +21,7 @@ MAY_IMPORT = {
     "autograder/sandbox": set(),
     "autograder/judge": {"autograder.reference", "dhm", "dhkit", GEOMETRY},
     "autograder/questions": {"autograder.judge", "autograder.reference", "dhm", "dhkit", GEOMETRY},
-    "autograder/authoring": {"autograder.questions", "autograder.judge", "autograder.reference", "dhkit"},
+    "autograder/authoring": {"autograder.questions", "autograder.judge", "autograder.reference", "dhkit", "dhm"},
     "autograder/sealing": {"autograder.questions", "autograder.judge", "dhkit"},
     "autograder/grading": {
         "autograder.sealing",

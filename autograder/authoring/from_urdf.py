@@ -41,15 +41,16 @@ def robot_text(path: Path, title: str = "") -> str:
 
 
 def _numbered(table: DHTable) -> list[list]:
-    """The rows of a table, its tool among them: behind the last joint it slides and turns along Z, then takes a row of its own."""
+    """The rows of a table, its tool among them: a row of its own where it does not just slide and turn along the last Z."""
     rows = [[row.sigma, *row.parameters] for row in table.rows]
     tool = np.array(table.tool, float)
     if np.allclose(tool, np.eye(4), atol=_NONE):
         return rows
-    d_before, theta_before, *own = _as_steps(tool)
-    rows[-1][3] += d_before
-    rows[-1][4] += theta_before
-    return [*rows, [0, *own]] if np.abs(own).max() > _NONE else rows
+    d_before, theta_before, a, alpha, d, theta = _as_steps(tool)
+    apart = max(abs(a), abs(alpha)) > _NONE
+    rows[-1][3] += d_before if apart else d_before + d
+    rows[-1][4] += theta_before if apart else theta_before + theta
+    return [*rows, [0, a, alpha, d, theta]] if apart else rows
 
 
 def _as_steps(tool: np.ndarray) -> tuple[float, float, float, float, float, float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -11,13 +12,14 @@ from nbformat import NotebookNode
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
 from autograder.questions.shared import arm as asked
-from autograder.questions.shared.configurations import is_for_point, target, task_rows, turning
+from autograder.questions.shared.configurations import is_for_point, robot_of, target, task_rows, turning
 from autograder.questions.shared.described import Described
 from autograder.questions.shared.pool import direction_of, end_frame, frames_in_space, origin_of, shown
 from autograder.questions.shared.singular import configurations, determinant, senses
 from autograder.questions.shared.sweep import sweep_of
 from autograder.questions.shared.tables import list_rows
 from dhkit.arms import arm_from, said_direction, said_point
+from dhm.derivation import derivation
 
 POINTS = {
     asked.TABLE: 5,
@@ -82,7 +84,6 @@ def numeric_table({joints}):
 
 _APPROACH = """\
 # Newton's method with the forward model alone. It knows no branches, so it starts from many places.
-# In closed form: first the joints that move the position, the signs of each root, then the wrist.
 def miss(q):
     pose = forward(*q)
     {miss}
@@ -105,6 +106,17 @@ for _ in range({starts}):
     known = any(np.allclose(np.exp(1j * q), np.exp(1j * other), atol=1e-4) for other in solutions)
     if reached and not known:
         solutions.append(q)"""
+
+_IN_CLOSED_FORM = """\
+# In closed form, by Paul's method; the derivation stands below.
+def inverse_model():
+{program}
+
+    return postures
+
+
+{pose}solutions = inverse_model()({given})
+display(Markdown(r\"\"\"{derivation}\"\"\"))"""
 
 _FIRST = """\
     if len(solutions) == 1:
@@ -190,6 +202,7 @@ def _imports(arm: Described, kinds: list[str]) -> Iterator[str]:
     yield "from dhkit import check, hint, progress, solution"
     yield ""
     yield "import numpy as np"
+    yield "from IPython.display import Markdown, display"
     yield "from sympy import Matrix, cos, eye, factor, lambdify, pi, simplify, sin, sqrt, symbols"
     yield ""
     yield "from dhkit.arms import arm_of_exercise"
@@ -314,22 +327,7 @@ def _solutions(exercise: _Exercise, number: int) -> list[NotebookNode]:
         f"## {number}. {title} ({POINTS[asked.SOLUTIONS]} points)\n\n"
         f"{what}, seen from frame 0. {ask} that bring it there, to three decimals; angles may differ by full turns."
     )
-    turns = [i in turning(arm) for i in range(len(arm.joints))]
-    worked = _APPROACH.format(
-        count=len(arm.joints),
-        miss=(
-            "return pose[:3, 3] - target"
-            if point
-            else "turn = np.cross(pose[:3, :3].T, target[:3, :3].T).sum(axis=0) / 2\n    return np.r_[pose[:3, 3] - target[:3, 3], -turn]"
-        ),
-        reached=("np.allclose(miss(q), 0, atol=1e-5)" if point else "np.allclose(forward(*q), target, atol=1e-5)"),
-        turns=turns,
-        starts=20 * len(arm.joints) + 60,
-        low=[-3 if turn else 0 for turn in turns],
-        high=[3 if turn else 0.5 for turn in turns],
-    )
-    if family:
-        worked += "\n" + _FIRST
+    worked = _in_closed_form(arm) or _by_newton(arm)
     return [
         _text("q-solutions", statement),
         _code("target", wanted),
@@ -341,6 +339,41 @@ def _solutions(exercise: _Exercise, number: int) -> list[NotebookNode]:
             "show_all_postures(solutions, numeric_table, target);",
         ),
     ]
+
+
+def _in_closed_form(arm: Described) -> str | None:
+    """The derived inverse model as a program, and what derives it; None where there is no end of solutions, or no closed form."""
+    if asked.is_family(arm) or not (found := derivation(robot_of(arm))).steps:
+        return None
+    point = is_for_point(arm)
+    return _IN_CLOSED_FORM.format(
+        program=textwrap.indent(found.to_python().strip(), "    "),
+        pose="pose = np.eye(4)\npose[:3, 3] = target\n" if point else "",
+        given="pose" if point else "target",
+        derivation=str(found.to_markdown()).strip().replace("## ", "#### "),  # below the question's own heading
+    )
+
+
+def _by_newton(arm: Described) -> str:
+    """A search with the forward model alone."""
+    point = is_for_point(arm)
+    turns = [i in turning(arm) for i in range(len(arm.joints))]
+    worked = _APPROACH.format(
+        count=len(arm.joints),
+        miss=(
+            "return pose[:3, 3] - target"
+            if point
+            else "turn = np.cross(pose[:3, :3].T, target[:3, :3].T).sum(axis=0) / 2\n    return np.r_[pose[:3, 3] - target[:3, 3], -turn]"
+        ),
+        reached=("np.allclose(miss(q), 0, atol=1e-5)" if point else "np.allclose(forward(*q), target, atol=1e-5)"),
+        turns=turns,
+        starts=400,
+        low=[-3 if turn else 0 for turn in turns],
+        high=[3 if turn else 0.5 for turn in turns],
+    )
+    if asked.is_family(arm):
+        worked += "\n" + _FIRST
+    return worked
 
 
 def _cloud(exercise: _Exercise, number: int) -> list[NotebookNode]:

@@ -125,14 +125,20 @@ URDF = """<robot name="bench arm">
 
 
 @pytest.mark.parametrize(
-    ("xyz", "rpy"),
-    [("0.35 0 0", "0 0 0"), ("0.3 0.02 -0.1", "0.4 -0.7 1.1"), ("0 -0.1 0", "1.5707963 0 0"), ("0 0 0", "0 0 0")],
+    ("xyz", "rpy", "rows"),
+    [
+        ("0.35 0 0", "0 0 0", 4),
+        ("0.3 0.02 -0.1", "0.4 -0.7 1.1", 4),
+        ("0 -0.1 0", "1.5707963267948966 0 0", 3),
+        ("0 0 0", "0 0 0", 4),
+    ],
 )
-def test_a_urdf_becomes_a_table_of_letters_with_the_same_poses(tmp_path, xyz, rpy):
+def test_a_urdf_becomes_a_table_of_letters_with_the_same_poses(tmp_path, xyz, rpy, rows):
     file = tmp_path / "bench.urdf"
     file.write_text(URDF.format(xyz=xyz, rpy=rpy))
     arm, table = describe(robot_text(file)), table_from_urdf_file(file)
     assert arm.title == "bench arm" and {"d1", "a2", "a3"} <= set(arm.table.values)
+    assert len(arm.table.rows) == rows, "no row for a tool that slides and turns along the last axis"
     base = np.array(table.base, float)
     for q in np.random.default_rng(0).uniform(-2, 2, (5, 3)):
         np.testing.assert_allclose(base @ arm.table.forward(q), table.forward(q), atol=1e-6)
@@ -175,7 +181,7 @@ def clone(tmp_path_factory):
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
         return done.stdout
 
-    run("-m", "autograder.cli", "new-exercise", ROOT / "docs/robots/gantry.toml")
+    run("-m", "autograder.cli", "new-exercise", ROOT / "docs/robots/arm_3r.toml")
     return root, run
 
 
@@ -187,17 +193,21 @@ def test_a_new_exercise_passes_the_tests_of_our_own(clone):
         "tests/questions/test_pool.py",
         "tests/course/test_course_notebooks.py",
     )
-    run("-m", "pytest", "-m", "not slow", "-k", "gantry", "-p", "no:cacheprovider", *own)  # no such test: an error
+    run("-m", "pytest", "-m", "not slow", "-k", "arm_3r", "-p", "no:cacheprovider", *own)  # no such test: an error
 
 
 @pytest.mark.slow
 @pytest.mark.sandbox
 def test_its_students_earn_what_they_should(clone, tmp_path):
     root, run = clone
-    run("tests/sample_class/write.py", tmp_path / "class", "--exercise", "gantry")
-    run("-m", "autograder.cli", "release", "gantry", "--home", "form", "--yes", cwd=tmp_path / "class")
-    lines = run("-m", "autograder.cli", "grade", "gantry", "--json", cwd=tmp_path / "class").splitlines()
-    students = tomllib.loads((root / "tests/sample_class/students/gantry.toml").read_text())["gantry"]
+    write = "from pathlib import Path; from write import write_class; write_class(Path('{}'), sparse=True, exercise='arm_3r')"
+    run("-c", write.format(tmp_path / "class"), cwd=root / "tests/sample_class")
+    run("-m", "autograder.cli", "release", "arm_3r", "--home", "form", "--yes", cwd=tmp_path / "class")
+    # Without a sandbox, which knows the installed kit only; these students are ours.
+    lines = run(
+        "-m", "autograder.cli", "grade", "arm_3r", "--json", "--sandbox", "none", cwd=tmp_path / "class"
+    ).splitlines()
+    students = tomllib.loads((root / "tests/sample_class/students/arm_3r.toml").read_text())["arm_3r"]
     told = {line["student"]: line["answers"] for line in map(json.loads, lines)}
     assert told.keys() == students.keys()
     for student, made in students.items():
