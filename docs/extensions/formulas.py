@@ -1,5 +1,7 @@
 """Formulas as MathML in the pages: no script and no network, dark and printed like the text around them."""
 
+import re
+from html import unescape
 from typing import Literal
 
 from docutils import nodes
@@ -10,6 +12,7 @@ from sphinx.util.math import get_node_equation_number
 from autograder.grading.inert import formula
 
 LOGGER = logging.getLogger(__name__)
+DOLLARS = re.compile(r"\$(?!\s)([^$<]+?)(?<!\s)\$")
 
 
 def converted(node: nodes.Node, display: Literal["inline", "block"]) -> str:
@@ -31,7 +34,16 @@ def block(self, node: nodes.math_block) -> None:
     raise nodes.SkipNode
 
 
+def within_outputs(app: Sphinx, tree: nodes.document, page: str) -> None:
+    """Formulas in the HTML that cells display, which a notebook's own page would typeset."""
+    for node in list(tree.findall(nodes.raw)):
+        if "text_html" in node.parent.get("classes", ()) and "<script" not in node.astext():
+            text = DOLLARS.sub(lambda found: formula(unescape(found[1])), node.astext())
+            node.parent.replace(node, nodes.raw("", text, format="html"))
+
+
 def setup(app: Sphinx) -> dict:
     app.add_html_math_renderer("mathml", (inline, None), (block, None))
     app.config.html_math_renderer = "mathml"
+    app.connect("doctree-resolved", within_outputs)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
