@@ -78,6 +78,8 @@ autodoc_default_options = {"members": True, "show-inheritance": True}
 napoleon_google_docstring = False
 napoleon_use_ivar = True
 add_module_names = False
+toc_object_entries_show_parents = "hide"
+default_role = "code"  # single backquotes of numpydoc
 
 html_theme = "sphinx_book_theme"
 html_title = project
