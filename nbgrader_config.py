@@ -16,15 +16,12 @@ c.CourseDirectory.release_directory = "exercises"
 
 c.ClearSolutions.code_stub = {"python": "# your code here"}
 
-c.Autograde.sanitize_preprocessors = [
-    "autograder.grading.plugins.preprocessors.RestoreCells",
-    "nbgrader.preprocessors.CheckCellMetadata",
-]
+# Restored cells have the metadata of the released notebook, which was checked when it was released.
+c.Autograde.sanitize_preprocessors = ["autograder.grading.plugins.preprocessors.RestoreCells"]
 c.Autograde.autograde_preprocessors = [
     "autograder.grading.plugins.preprocessors.SandboxExecute",
     "autograder.grading.plugins.preprocessors.JudgeAnswers",
     "nbgrader.preprocessors.LimitOutput",
-    "nbgrader.preprocessors.CheckCellMetadata",
 ]
 
 c.GenerateFeedback.exporter_class = "autograder.grading.plugins.feedback.FeedbackExporter"

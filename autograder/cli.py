@@ -503,6 +503,7 @@ def _collect(options) -> int:
 def _grade(options) -> int:
     from traitlets.config import Config
 
+    from autograder.grading.crew import Crew
     from autograder.grading.pipeline import grade
     from autograder.grading.results import without_notebook
     from autograder.grading.table import changes_table, class_table, progress_bar, summary
@@ -515,10 +516,11 @@ def _grade(options) -> int:
     if options.sandbox == "none":
         print("warning: no sandbox; students' code runs with your rights", file=sys.stderr)
     jobs, results = options.jobs or os.cpu_count() or 1, []
-    for exercise, students in submissions.items():
-        with progress_bar(f"grading {exercise}", len(students)) as progress:
-            results += grade(course, exercise, students, jobs, options.force, progress)
-        results += without_notebook(course, exercise) if not options.student else []
+    with Crew(course, jobs) as crew:
+        for exercise, students in submissions.items():
+            with progress_bar(f"grading {exercise}", len(students)) as progress:
+                results += grade(course, exercise, students, crew, options.force, progress)
+            results += without_notebook(course, exercise) if not options.student else []
     if options.json:
         for result in results:
             print(json.dumps(result.as_json()))
@@ -532,6 +534,7 @@ def _grade(options) -> int:
 def _watch(options) -> int:
     from datetime import datetime
 
+    from autograder.grading.crew import Crew
     from autograder.grading.errors import CourseError
     from autograder.grading.pipeline import grade
     from autograder.grading.table import progress_bar, result_line
@@ -544,25 +547,26 @@ def _watch(options) -> int:
     print(f"watching {course.step('submitted')}; Ctrl-C stops", flush=True)
     again: dict[str, set[str]] = {}
     failures: dict[tuple[str, str], str] = {}
-    for waiting in arrivals(course, options.exercise, poll=options.poll):
-        for exercise in sorted({*waiting, *again}):
-            students = sorted({*waiting.get(exercise, ()), *again.pop(exercise, ())})
-            try:
-                with progress_bar(f"grading {exercise}", len(students)) as progress:
-                    results = grade(course, exercise, students, jobs, False, progress)
-            except CourseError as reason:
-                print(f"autograder: {exercise}: {reason}", file=sys.stderr)
-                again[exercise] = set(students)
-                continue
-            for result in results:
-                failed = result.found() if result.status == "failed" else ""
-                if failed and result.student in students:
-                    again.setdefault(exercise, set()).add(result.student)
-                told = failures.pop((result.student, exercise), None)
-                if failed:
-                    failures[result.student, exercise] = failed
-                if (result.status != "unchanged" or result.moved) and (not failed or failed != told):
-                    print(result_line(result, datetime.now()), flush=True)
+    with Crew(course, jobs) as crew:
+        for waiting in arrivals(course, options.exercise, poll=options.poll):
+            for exercise in sorted({*waiting, *again}):
+                students = sorted({*waiting.get(exercise, ()), *again.pop(exercise, ())})
+                try:
+                    with progress_bar(f"grading {exercise}", len(students)) as progress:
+                        results = grade(course, exercise, students, crew, False, progress)
+                except CourseError as reason:
+                    print(f"autograder: {exercise}: {reason}", file=sys.stderr)
+                    again[exercise] = set(students)
+                    continue
+                for result in results:
+                    failed = result.found() if result.status == "failed" else ""
+                    if failed and result.student in students:
+                        again.setdefault(exercise, set()).add(result.student)
+                    told = failures.pop((result.student, exercise), None)
+                    if failed:
+                        failures[result.student, exercise] = failed
+                    if (result.status != "unchanged" or result.moved) and (not failed or failed != told):
+                        print(result_line(result, datetime.now()), flush=True)
     return 0
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import os
 import traceback
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from nbgrader.apps import NbGrader
@@ -47,6 +47,8 @@ class Course:
 
     root: Path
     app: NbGrader
+    settings: Config = field(default_factory=Config)
+    """What was configured on top of the course's own file."""
 
     @property
     def db_url(self) -> str:
@@ -134,7 +136,7 @@ def open_course(root: Path, config: Config | None = None, verbose: bool = False)
         handler.setLevel(logging.CRITICAL + 1)
     if config:
         app.update_config(config)
-    return Course(root, app)
+    return Course(root, app, config or Config())
 
 
 def _configuration(error: Exception) -> str | None:

@@ -10,7 +10,8 @@ from pathlib import Path
 
 from .submission.reading import Unreadable, plain_bytes
 
-_MAX_BYTES = 256 << 20
+MOST_BYTES = 256 << 20
+"""Of a file that is looked at."""
 
 
 def digest(content: bytes) -> str:
@@ -21,7 +22,7 @@ def digest(content: bytes) -> str:
 def digest_of(path: Path) -> str | None:
     """SHA-256 of a file, None if there is none that can be read."""
     try:
-        return digest(plain_bytes(path, _MAX_BYTES))
+        return digest(plain_bytes(path, MOST_BYTES))
     except (Unreadable, OSError):
         return None
 

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import os
+from functools import lru_cache
 from pathlib import Path
 
+import nbformat
+from nbformat.notebooknode import NotebookNode
 from nbgrader.coursedir import CourseDirectory
 
 # Formgrader puts names into its pages as they are. An apostrophe does no harm there, and O'Neil is a name.
@@ -39,3 +42,14 @@ def _folder_names(step: Path) -> list[str]:
 def released_path(coursedir: CourseDirectory, exercise: str, notebook: str) -> Path:
     """Where the released notebook lies."""
     return Path(coursedir.format_path(coursedir.release_directory, ".", exercise), f"{notebook}.ipynb").resolve()
+
+
+def released_notebook(path: Path) -> NotebookNode:
+    """The released notebook at `path`, read once for a whole class: not to be changed."""
+    state = path.stat()
+    return _read_released(path, state.st_mtime_ns, state.st_size)
+
+
+@lru_cache(maxsize=32)
+def _read_released(path: Path, *state: int) -> NotebookNode:
+    return nbformat.read(path, as_version=4)

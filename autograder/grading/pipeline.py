@@ -1,61 +1,51 @@
-"""Grades a class: notebooks run side by side in their sandboxes, nbgrader's gradebook is written by one thread.
+"""Grades a class: a crew runs, judges and lays out submissions side by side, one thread writes nbgrader's gradebook.
 
-Kernels take nearly all of the time and run in processes of their own, so worker threads only drive them. What
-they bring back goes through the very converter that ``nbgrader autograde`` uses, one submission after the other.
-
-A submission is therefore read and restored more than once: here, to run it ahead, and again by the converter, which
-takes nothing for granted and finds the run by the submission's fingerprint. That is the price of being nbgrader's
-guest: the same plug-ins, in the same order, give the same gradebook whether our command or the stock one is typed.
+What a crew does goes through the very plug-ins that ``nbgrader autograde`` uses, in the same order: the stock command
+gives the same gradebook.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Generator, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from contextlib import closing, contextmanager
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, wait
+from contextlib import contextmanager
 from dataclasses import replace
 
-import nbformat
+from nbgrader import utils
 from nbgrader.preprocessors import AssignLatePenalties
 
-from autograder.sandbox import cancel_runs, sweep
+from autograder.sandbox import sweep
 
 from .cells import check_cells, counts_for_everybody
 from .changes import Given, by_hand, given, moved
 from .collecting.receipts import read_receipts, receipts_folder
 from .course import Course, convert
+from .crew import Crew
 from .errors import CourseError, in_words
-from .folders import released_path
+from .folders import released_notebook, released_path
 from .gradebook import GradebookError, reading, writing
 from .inert import terminal_text
-from .plugins.autograde import (
-    SubmissionAutograde,
-    notebook_names,
-    refuse_unless_fit,
-    refuse_unless_ready,
-    submission,
-)
-from .plugins.feedback import FeedbackPages
-from .plugins.preprocessors import SandboxExecute
+from .plugins.autograde import Judged, SubmissionAutograde, Turn, notebook_names, refuse_unless_ready
+from .plugins.feedback import FeedbackPages, Shown
 from .results import Result, graded_notebooks, read_result
 from .store import StoredNotebook, refresh_dates, stored_notebooks
-from .submission.execution import Execution
+from .submission.execution import InDoubt
+from .submission.kept import kept_path
 from .submission.reading import fingerprint
-from .submission.restore import restore
 from .term import deadlines
 
 Progress = Callable[[str], None]
 
 
 def grade(
-    course: Course, exercise: str, students: Sequence[str], jobs: int, force: bool, progress: Progress
+    course: Course, exercise: str, students: Sequence[str], crew: Crew, force: bool, progress: Progress
 ) -> list[Result]:
     """Grade the submissions of `students` for `exercise` and write their feedback.
 
     Parameters
     ----------
-    jobs : int
-        How many notebooks run at the same time.
+    crew : Crew
+        Whoever runs and judges.
     force : bool
         Grade also what was graded before and has not changed.
     progress : callable
@@ -71,7 +61,6 @@ def grade(
     refuse_unless_ready(converter)
     sweep()
     names = notebook_names(converter)
-    runner = SandboxExecute(parent=converter)
     before = _stored(course, exercise)
     _bring_up_dates(course, exercise, converter)
     stored = _stored(course, exercise)
@@ -86,25 +75,10 @@ def grade(
                 _write_pages(course, student, force=False)
         if status[student] == "unchanged":
             progress(student)
-    earlier = {
-        student: given(graded_notebooks(course, student, exercise))
-        for student, what in status.items()
-        if what == "graded" and student in stored
-    }
-    if "graded" in status.values():
-        refuse_unless_fit(converter)
-
-    def run(student: str) -> dict[tuple[str, str], Execution]:
-        return {(student, name): _run(course, runner.run, student, exercise, name) for name in names}
-
-    def run_alone(student: str) -> dict[tuple[str, str], Execution]:
-        return {(student, name): _run(course, runner.run_alone, student, exercise, name) for name in names}
-
-    with closing(_run_ahead(run, run_alone, [name for name in students if status[name] == "graded"], jobs)) as runs:
-        for student, future in runs:
-            with _noting(failures, student):
-                _store(course, student, future.result())
-            progress(student)
+    to_grade = [student for student, what in status.items() if what == "graded"]
+    earlier = {student: given(graded_notebooks(course, student, exercise)) for student in to_grade if student in stored}
+    if to_grade:
+        _grade(course, exercise, names, to_grade, crew, failures, progress)
     stored = _stored(course, exercise)
     unusable = [
         Result(terminal_text(name), exercise, "failed", remarks=(reason,))
@@ -125,6 +99,61 @@ def grade(
         for student in students
     ]
     return unusable + [replace(result, remarks=(*said.get(result.student, ()), *result.remarks)) for result in results]
+
+
+def _grade(
+    course: Course,
+    exercise: str,
+    names: Sequence[str],
+    students: Sequence[str],
+    crew: Crew,
+    failures: dict[str, str],
+    progress: Progress,
+) -> None:
+    """Grade submissions and write their pages: the crew does all of it but what changes the gradebook."""
+    converter = SubmissionAutograde(coursedir=course.app.coursedir, parent=course.app)
+    feedback = FeedbackPages(coursedir=course.app.coursedir, parent=course.app)
+    pages: dict[Future[dict[str, bytes]], tuple[str, Shown]] = {}
+
+    def put(done: Iterable[Future]) -> None:
+        for future in done:
+            student, shown = pages.pop(future)
+            with _noting(failures, student):
+                try:
+                    killed = isinstance(future.exception(), BrokenExecutor)
+                    if killed or not feedback.enter(student, shown, future.result()):
+                        feedback.convert_student(student)
+                    feedback.run_post_convert_hook()
+                except GradebookError:
+                    raise
+                except Exception as reason:
+                    said = f"the points are in the gradebook, but there is no feedback page: {in_words(reason)}"
+                    raise CourseError(said) from None
+            progress(student)
+
+    def submit(student: str, turn: Turn) -> Future[Judged]:
+        return crew.judged(exercise, student, names, turn)
+
+    crew.expect(len(students))
+    trial = crew.trial(exercise) if _must_run(course, exercise, names, students) else None
+    with utils.setenv(NBGRADER_EXECUTION="autograde"):
+        for student, future in _judged(submit, students, crew.jobs):
+            if trial is not None:
+                trial.result()
+            with _noting(failures, student):
+                converter.enter(student, future.result())
+                converter.run_post_convert_hook()
+                shown = feedback.to_show(student)
+                pages[crew.pages(exercise, student, shown)] = (student, shown)
+            if student in failures:
+                progress(student)
+            put([future for future in pages if future.done()])
+        put(list(pages))
+
+
+def _must_run(course: Course, exercise: str, names: Sequence[str], students: Sequence[str]) -> bool:
+    """Whether a notebook has to run, for all that can be seen without opening one."""
+    return any(not kept_path(course.root, exercise, student, name).exists() for student in students for name in names)
 
 
 def _said_elsewhere(course: Course, exercise: str) -> dict[str, tuple[str, ...]]:
@@ -156,7 +185,7 @@ def _compared(
 
 
 def _for_everybody(course: Course, exercise: str, name: str) -> set[str]:
-    nb = nbformat.read(released_path(course.app.coursedir, exercise, name), as_version=4)
+    nb = released_notebook(released_path(course.app.coursedir, exercise, name))
     return {check for check, cell in check_cells(nb).items() if counts_for_everybody(cell)}
 
 
@@ -183,6 +212,10 @@ def _noting(failures: dict[str, str], student: str) -> Iterator[None]:
         raise
     except CourseError as error:
         failures[student] = str(error)
+    except BrokenExecutor:
+        failures[student] = (
+            "the process that worked on it was killed, twice; is there memory enough for so many --jobs?"
+        )
     except Exception as error:
         failures[student] = f"could not be run: {in_words(error)}"
 
@@ -218,27 +251,6 @@ def _has_pages(course: Course, stored: Mapping[str, StoredNotebook], student: st
     return all(notebook.has_page(pages / f"{name}.html") for name, notebook in stored.items())
 
 
-def _run(course: Course, run: Callable[..., Execution], student: str, exercise: str, name: str) -> Execution:
-    released = released_path(course.app.coursedir, exercise, name)
-    folder = course.step("submitted", student, exercise)
-    nb = restore(submission(folder / f"{name}.ipynb", released), nbformat.read(released, as_version=4))
-    return run(nb, folder, released, student, course.root)
-
-
-def _store(course: Course, student: str, executions: dict[tuple[str, str], Execution]) -> None:
-    """Judge what came out of the sandbox, store it as a whole and write the feedback page."""
-    converter = SubmissionAutograde(
-        coursedir=course.app.coursedir, parent=course.app, students=(student,), force=True, executions=executions
-    )
-    try:
-        convert(converter)
-    except GradebookError:
-        raise
-    except CourseError as reason:
-        raise CourseError(f"could not be judged: {converter.failures.get(student, reason)}") from None
-    _write_pages(course, student, force=True)
-
-
 def _write_pages(course: Course, student: str, force: bool) -> None:
     """Write the feedback pages of a student, unless they are there already and show what the gradebook holds."""
     converter = FeedbackPages(coursedir=course.app.coursedir, parent=course.app, students=(student,), force=force)
@@ -251,40 +263,38 @@ def _write_pages(course: Course, student: str, force: bool) -> None:
         raise CourseError(f"the points are in the gradebook, but there is no feedback page: {said}") from None
 
 
-def _in_doubt(run: Future) -> bool:
-    """Whether the machine, or a neighbour's notebook, may be to blame for what came of a run."""
-    return run.exception() is not None or any(execution.doubt for execution in run.result().values())
+def _in_doubt(judged: Future) -> bool:
+    """Whether a submission has to be done once more, alone: the machine, or a neighbour's notebook, may be to blame."""
+    return isinstance(judged.exception(), InDoubt | BrokenExecutor)
 
 
-def _run_ahead(
-    run: Callable[[str], dict], run_alone: Callable[[str], dict], students: list[str], jobs: int
-) -> Generator[tuple[str, Future]]:
-    """Yield each student with the finished run, in the order in which runs end; few results wait at any time.
+def _judged(
+    submit: Callable[[str, Turn], Future[Judged]], students: Iterable[str], jobs: int
+) -> Iterator[tuple[str, Future[Judged]]]:
+    """Yield each student with what came of the submission, in the order in which that is done.
 
-    Whose run ended in doubt comes last and runs once more, alone.
+    Few results wait at any time. Whose first run ended in doubt comes last and runs once more, alone.
     """
     waiting = iter(students)
     again: list[str] = []
     running: dict[Future, str] = {}
-    with ThreadPoolExecutor(jobs) as pool:
-        try:
-            while True:
-                while len(running) < 2 * jobs and (student := next(waiting, None)) is not None:
-                    running[pool.submit(run, student)] = student
-                if not running:
-                    break
-                done, _ = wait(running, return_when=FIRST_COMPLETED)
-                for future in done:
-                    student = running.pop(future)
-                    if _in_doubt(future):
-                        again.append(student)
-                    else:
-                        yield student, future
-            for student in again:
-                future = pool.submit(run_alone, student)
-                wait([future])
-                yield student, future
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            cancel_runs()
-            raise
+    try:
+        while True:
+            while len(running) < 2 * jobs and (student := next(waiting, None)) is not None:
+                running[submit(student, "first")] = student
+            if not running:
+                break
+            done, _ = wait(running, return_when=FIRST_COMPLETED)
+            for future in done:
+                student = running.pop(future)
+                if _in_doubt(future):
+                    again.append(student)
+                else:
+                    yield student, future
+    finally:
+        for future in running:
+            future.cancel()
+    for student in again:
+        future = submit(student, "alone")
+        wait([future])
+        yield student, future

@@ -18,7 +18,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from multiprocessing.connection import Connection
@@ -34,6 +34,7 @@ PAGE_SECONDS = 1.0  # processor time for the texts of one page
 PAGE_HTML = 250_000  # characters of HTML made of them: the exporter reads the whole page once more
 TEXT = 20_000  # characters of one text that are laid out, or shown at all
 PAGE_TEXT = 200_000  # characters of a page that are shown as they were typed
+KNOWN_TEXTS = 1000  # of at most TEXT characters each, and as much HTML
 _MEMORY = 2 << 30
 _CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|[\x00-\x08\x0b-\x1f\x7f]")
 
@@ -57,6 +58,8 @@ class Renderer:
         """Leave the process to whoever else talks to it; the next text starts another."""
         self._lock = threading.Lock()
         self._process: subprocess.Popen[bytes] | None = None
+        # Statements, check cells and verdicts stand on the page of every student.
+        self._known: dict[tuple[str, str, tuple[str, ...]], tuple[str | None, float]] = {}
 
     def render(self, kind: str, text: str, budget: Budget, pictures: Iterable[str] = ()) -> str | None:
         """Return `text` as HTML, None if that goes beyond the budget, which is reduced by what it took.
@@ -72,24 +75,38 @@ class Renderer:
         """
         if len(text) > TEXT or budget.seconds <= 0 or budget.html <= 0:
             return None
-        request = {"kind": kind, "text": text, "seconds": budget.seconds, "pictures": list(pictures)}
+        key = (kind, text, tuple(pictures))
         with self._lock:
-            try:
-                if self._process is None:
-                    self._start()
-                self._requests.send_bytes(json.dumps(request).encode())
-                reply = json.loads(self._replies.recv_bytes())
-            except (EOFError, OSError):
-                self._stop()
+            found = self._known.get(key)
+            if found is None or found[1] > budget.seconds:
+                found = self._ask(kind, text, budget.seconds, key[2])
+            if found is None:
                 budget.seconds = 0.0
                 return None
-        budget.seconds -= reply["seconds"]
-        html = reply["html"]
+            if len(self._known) >= KNOWN_TEXTS:
+                self._known.clear()
+            if len(found[0] or "") <= TEXT:
+                self._known[key] = found
+        html, seconds = found
+        budget.seconds -= seconds
         if html is not None and len(html) > budget.html:
             budget.html = 0
             return None
         budget.html -= len(html or "")
         return html
+
+    def _ask(self, kind: str, text: str, seconds: float, pictures: Sequence[str]) -> tuple[str | None, float] | None:
+        """The HTML of a text and the seconds that it took; None if it takes longer than it may."""
+        request = {"kind": kind, "text": text, "seconds": seconds, "pictures": pictures}
+        try:
+            if self._process is None:
+                self._start()
+            self._requests.send_bytes(json.dumps(request).encode())
+            reply = json.loads(self._replies.recv_bytes())
+        except (EOFError, OSError):
+            self._stop()
+            return None
+        return reply["html"], reply["seconds"]
 
     def _start(self) -> None:
         (theirs_in, ours_out), (ours_in, theirs_out) = os.pipe(), os.pipe()

@@ -74,6 +74,56 @@ class Mark(_Base):
 
 
 @dataclass(frozen=True)
+class Entries:
+    """What one graded notebook enters in the gradebook.
+
+    Attributes
+    ----------
+    submission : str
+        Fingerprint of what was handed in and of the release it was graded against.
+    scores : dict of str to float or None
+        Points by the id of their cell; None where somebody has to give them.
+    tasks : frozenset of str
+        Cells that only a person marks.
+    comments : dict of str to str or None
+        The judge's comments, by the id of the answer's cell.
+    """
+
+    submission: str
+    scores: dict[str, float | None]
+    tasks: frozenset[str]
+    comments: dict[str, str | None]
+
+
+@dataclass(frozen=True)
+class Graded:
+    """A graded notebook: the content of its file, and what it enters in the gradebook."""
+
+    content: bytes
+    entries: Entries
+
+
+def entries_of(nb: NotebookNode) -> Entries:
+    """Points and comments of a graded notebook, and the judge's notes as comments on the answers."""
+    cells = tracked_cells(nb)
+    comments: dict[str, str | None] = {}
+    for name, cell in cells.items():
+        if utils.is_solution(cell) or utils.is_task(cell):
+            untouched = cell.metadata.nbgrader.get("checksum") == utils.compute_checksum(cell)
+            comments[name] = "No response." if untouched and not utils.is_task(cell) else None
+    for check, cell in check_cells(nb).items():
+        record = check_record(cell)
+        if record is not None and answer_id(check) in comments:
+            comments[answer_id(check)] = comment(record.note)
+    return Entries(
+        notebook_record(nb).submission,
+        {name: utils.determine_grade(cell)[0] for name, cell in cells.items() if utils.is_grade(cell)},
+        frozenset(name for name, cell in cells.items() if utils.is_task(cell)),
+        comments,
+    )
+
+
+@dataclass(frozen=True)
 class StoredGrade:
     """Points of one cell: the judge's, those typed by hand in their place, and extra ones."""
 
@@ -234,7 +284,7 @@ def store(
     session: Session,
     exercise: str,
     student: str,
-    graded: Mapping[str, tuple[NotebookNode, bytes]],
+    graded: Mapping[str, Graded],
     timestamp: datetime | None,
     dates: Deadlines,
     penalties: AssignLatePenalties,
@@ -245,8 +295,8 @@ def store(
     ----------
     session : Session
         Of `gradebook.writing`.
-    graded : mapping of str to (NotebookNode, bytes)
-        By name, each graded notebook and the content of its file.
+    graded : mapping of str to Graded
+        Each graded notebook, by name.
     timestamp : datetime or None
         When it was handed in, if that is known.
     dates : Deadlines
@@ -266,8 +316,7 @@ def store(
     for notebook in submission.notebooks:
         if notebook.name not in graded:
             continue
-        nb, _ = graded[notebook.name]
-        _enter(notebook, nb)
+        _enter(notebook, graded[notebook.name].entries)
         session.flush()
         session.refresh(notebook)
         notebook.late_submission_penalty = _penalty(submission, notebook, penalties)
@@ -276,10 +325,9 @@ def store(
     for (_, name), stored in stored_notebooks(session, exercise, student).items():
         if name not in graded:
             continue
-        nb, content = graded[name]
-        fingerprint = notebook_record(nb).submission
+        submission_mark, checksum = graded[name].entries.submission, digest(graded[name].content)
         session.merge(
-            Mark(notebook_id=stored.id, submission=fingerprint, entries=stored.entries(), graded=digest(content))
+            Mark(notebook_id=stored.id, submission=submission_mark, entries=stored.entries(), graded=checksum)
         )
 
 
@@ -343,28 +391,18 @@ def complete(session: Session, submission: SubmittedAssignment, notebooks: Itera
     session.refresh(submission)
 
 
-def _enter(notebook: SubmittedNotebook, nb: NotebookNode) -> None:
-    """Points and comments of a graded notebook, and the judge's notes as comments on the answers."""
-    cells = tracked_cells(nb)
+def _enter(notebook: SubmittedNotebook, entries: Entries) -> None:
+    """Put points and comments into the rows of a notebook."""
     grades, comments = ({row.name: row for row in rows} for rows in (notebook.grades, notebook.comments))
-    graded = {name for name, cell in cells.items() if utils.is_grade(cell) or utils.is_task(cell)}
-    commented = {name for name, cell in cells.items() if utils.is_solution(cell) or utils.is_task(cell)}
-    if grades.keys() != graded or comments.keys() != commented:
+    if grades.keys() != entries.scores.keys() | entries.tasks or comments.keys() != entries.comments.keys():
         raise CourseError("the exercise was released anew while this was graded; grade again")
-    for name, grade in grades.items():
-        if not utils.is_grade(cells[name]):
-            continue
-        grade.auto_score, _ = utils.determine_grade(cells[name])
+    for name, points in entries.scores.items():
+        grade = grades[name]
+        grade.auto_score = points
         # Points typed by hand stay; somebody should look whether they still fit.
-        grade.needs_manual_grade = grade.manual_score is not None or grade.auto_score is None
-    for name, found in comments.items():
-        cell = cells[name]
-        untouched = cell.metadata.nbgrader.get("checksum") == utils.compute_checksum(cell)
-        found.auto_comment = "No response." if untouched and not utils.is_task(cell) else None
-    for check, cell in check_cells(nb).items():
-        record = check_record(cell)
-        if record is not None and answer_id(check) in comments:
-            comments[answer_id(check)].auto_comment = comment(record.note)
+        grade.needs_manual_grade = grade.manual_score is not None or points is None
+    for name, text in entries.comments.items():
+        comments[name].auto_comment = text
 
 
 def _penalty(

@@ -11,16 +11,16 @@ from __future__ import annotations
 
 import os
 import traceback
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from copy import deepcopy
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from datetime import datetime
 from fnmatch import fnmatchcase
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import nbformat
-from nbconvert.exporters import Exporter
 from nbformat.notebooknode import NotebookNode
 from nbgrader import utils
 from nbgrader.api import Assignment
@@ -34,14 +34,14 @@ from autograder.sandbox import available
 from ..cells import NotebookRecord, check_cells, notebook_record, tracked_cells, write_record
 from ..errors import CourseError, in_words
 from ..files import remove_others, staged
-from ..folders import released_path, student_names
+from ..folders import released_notebook, released_path, student_names
 from ..gradebook import GradebookError, is_made, reading, writing
 from ..inert import terminal_text
-from ..store import store, stored_notebooks
+from ..store import Graded, entries_of, store, stored_notebooks
 from ..submission.execution import Execution
 from ..submission.reading import Unreadable, fingerprint, plain_bytes, read_submission
 from ..term import deadlines
-from .preprocessors import SandboxExecute
+from .preprocessors import SandboxExecute, Turn
 
 
 def submission(path: Path, released: Path) -> NotebookNode:
@@ -49,7 +49,7 @@ def submission(path: Path, released: Path) -> NotebookNode:
     try:
         nb = read_submission(path)
     except Unreadable as reason:
-        nb = deepcopy(nbformat.read(released, as_version=4))
+        nb = deepcopy(released_notebook(released))
         write_record(nb, NotebookRecord(unreadable=terminal_text(str(reason))))
     stamp = fingerprint(path.parent, released.read_bytes())
     write_record(nb, replace(notebook_record(nb), submission=stamp))
@@ -114,6 +114,25 @@ def time_stamp(folder: str | os.PathLike) -> datetime | None:
         return None
 
 
+@dataclass(frozen=True)
+class Judged:
+    """All that is to be stored of one submission.
+
+    Attributes
+    ----------
+    notebooks : dict of str to Graded
+        By name.
+    beside : dict of str to bytes
+        Contents of the files beside them, by name.
+    timestamp : datetime or None
+        When it was handed in, if that is known.
+    """
+
+    notebooks: dict[str, Graded]
+    beside: dict[str, bytes]
+    timestamp: datetime | None
+
+
 class SubmissionAutograde(ChosenStudents, Autograde):
     """Autograde for submissions that nobody has looked at.
 
@@ -156,16 +175,43 @@ class SubmissionAutograde(ChosenStudents, Autograde):
             raise NbGraderException(message)
 
     def convert_student(self, student: str) -> None:
-        folder, exercise = self.folder(student), self.coursedir.assignment_id
-        target = Path(self._format_dest(exercise, student))
-        if not self.force and self._is_done(student, folder, target):
+        target = Path(self._format_dest(self.coursedir.assignment_id, student))
+        if not self.force and self._is_done(student, self.folder(student), target):
             self.log.info("Skipping existing assignment: %s", target)
             return
-        graded = {name: self._graded(student, folder / f"{name}.ipynb") for name in self.notebooks}
-        files = {f"{name}.ipynb": content for name, (_, content) in graded.items()} | self._beside(folder)
+        with utils.setenv(NBGRADER_EXECUTION="autograde"):
+            judged = self.judged(student, self.notebooks)
+        self.enter(student, judged)
+
+    def judged(self, student: str, names: Sequence[str], turn: Turn = "both") -> Judged:
+        """Restore, run and judge a submission; nothing is stored.
+
+        Parameters
+        ----------
+        student : str
+        names : sequence of str
+            Of the exercise's notebooks.
+        turn : str
+            See `SandboxExecute`.
+
+        Raises
+        ------
+        InDoubt
+            In the first turn, if the machine may be to blame for what went wrong.
+        """
+        folder = self.folder(student)
+        notebooks = {name: self._graded(student, folder / f"{name}.ipynb", turn) for name in names}
+        return Judged(notebooks, self._beside(folder), time_stamp(folder))
+
+    def enter(self, student: str, judged: Judged) -> None:
+        """Store a submission as a whole: entries of the gradebook, and files."""
+        exercise = self.coursedir.assignment_id
+        target = Path(self._format_dest(exercise, student))
+        files = {f"{name}.ipynb": graded.content for name, graded in judged.notebooks.items()} | judged.beside
         dates = deadlines(self.coursedir.root, exercise)
+        penalties = AssignLatePenalties(parent=self)
         with writing(self.coursedir.db_url) as session:
-            store(session, exercise, student, graded, time_stamp(folder), dates, AssignLatePenalties(parent=self))
+            store(session, exercise, student, judged.notebooks, judged.timestamp, dates, penalties)
             with staged(target, files, int(str(self.permissions), 8)) as put_in_place:
                 put_in_place()
             if self.coursedir.notebook_id == "*":
@@ -185,8 +231,19 @@ class SubmissionAutograde(ChosenStudents, Autograde):
             for name, stamp in stamps.items()
         )
 
-    def _graded(self, student: str, path: Path) -> tuple[NotebookNode, bytes]:
-        """The graded notebook, and the content of its file: sanitized, then judged, by the configured plug-ins."""
+    @cached_property
+    def _steps(self) -> list[Callable]:
+        """The configured plug-ins, those that sanitize first."""
+        exporter = self.exporter_class(parent=self, config=self.config)
+        for plugin in (*self.sanitize_preprocessors, *self.autograde_preprocessors):
+            exporter.register_preprocessor(plugin)
+        return exporter._preprocessors
+
+    def _graded(self, student: str, path: Path, turn: Turn) -> Graded:
+        """The graded notebook: sanitized, then judged.
+
+        nbconvert would copy and validate it around each plug-in; what `submission` gives is valid, and ours alone.
+        """
         name, exercise = path.stem, self.coursedir.assignment_id
         released = released_path(self.coursedir, exercise, name)
         resources: dict[str, Any] = {"unique_key": name, "output_files_dir": f"{name}_files"}
@@ -198,14 +255,13 @@ class SubmissionAutograde(ChosenStudents, Autograde):
             "folder": str(path.parent),
             "released": str(released),
             "execution": (self.executions or {}).get((student, name)),
+            "turn": turn,
         }
         nb = submission(path, released)
-        with utils.setenv(NBGRADER_EXECUTION="autograde"):
-            for self._sanitizing in (True, False):
-                self._init_preprocessors()
-                # The exporter's own method gives a text, this one the notebook.
-                nb, resources = Exporter.from_notebook_node(self.exporter, nb, resources)
-        return nb, f"{nbformat.writes(nb)}\n".encode()
+        for step in self._steps:
+            nb, resources = step(nb, resources)
+        nbformat.validate(nb)
+        return Graded(f"{nbformat.v4.writes(nb)}\n".encode(), entries_of(nb))
 
     def _beside(self, folder: Path) -> dict[str, bytes]:
         """The files that stand beside the graded notebook: the solution's own, and the time stamp."""
@@ -242,7 +298,7 @@ def refuse_unless_ready(converter: SubmissionAutograde) -> None:
         path = released_path(course, exercise, name)
         if not path.is_file():
             raise NotReady(f"{path} is missing; run: autograder release {exercise}")
-        nb = nbformat.read(path, as_version=4)
+        nb = released_notebook(path)
         checks = {check: (cell.metadata.nbgrader["points"], cell.source) for check, cell in check_cells(nb).items()}
         with reading(course.db_url) as session:
             assignment = session.scalars(select(Assignment).where(Assignment.name == exercise)).one()

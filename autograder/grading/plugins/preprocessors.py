@@ -7,13 +7,13 @@ result (`SandboxExecute`, `JudgeAnswers`). ``nbgrader generate_feedback`` conver
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Container, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import fields, replace
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, Literal, cast
 
-import nbformat
 from nbformat.notebooknode import NotebookNode
 from nbformat.v4 import new_output
 from nbgrader.preprocessors import NbGraderPreprocessor
@@ -38,13 +38,17 @@ from ..cells import (
     write_record,
 )
 from ..entries import score
+from ..errors import in_words
+from ..folders import released_notebook
 from ..inert import terminal_text
 from ..store import StoredNotebook
 from ..submission import trial
-from ..submission.execution import Execution, Mode, confirm, execute
-from ..submission.kept import FOLDER
+from ..submission.execution import Execution, InDoubt, Mode, confirm, execute
+from ..submission.kept import kept_path
 from ..submission.restore import restore
 
+Turn = Literal["first", "alone", "both"]
+_JUDGING = threading.Lock()  # SymPy, which references are made with, is not made for several threads
 _TRAITS = {"bytes": Integer, "seconds": Float, "count": Integer}
 
 
@@ -60,14 +64,15 @@ class RestoreCells(NbGraderPreprocessor):
     """Sanitizes: the tracked cells and all metadata come from the released notebook."""
 
     def preprocess(self, nb: NotebookNode, resources: dict) -> tuple[NotebookNode, dict]:
-        released = nbformat.read(resources["autograder"]["released"], as_version=4)
-        return restore(nb, released), resources
+        return restore(nb, released_notebook(Path(resources["autograder"]["released"]))), resources
 
 
 class SandboxExecute(NbGraderPreprocessor):
     """Runs the notebook in the sandbox; leaves the evidence of each question in the resources.
 
     Every field of `autograder.sandbox.Limits` can be configured, for example ``c.SandboxExecute.cell_seconds = 60``.
+    ``turn`` in the resources says which run it is: the first, the second and last one, for which nobody else's may run
+    at the same time, or both, one after the other.
     """
 
     mode = Enum(("bwrap", "none"), "bwrap", help="Sandbox to run students' code in.").tag(config=True)
@@ -86,7 +91,7 @@ class SandboxExecute(NbGraderPreprocessor):
         The sandbox does not show the `course`. A `warm` kernel may share its parent with others. What was kept of a
         run of the same is taken in place of another.
         """
-        kept = course / FOLDER / released.parent.name / student / f"{released.stem}.json"
+        kept = kept_path(course, released.parent.name, student, released.stem)
         mode = cast(Mode, self.mode)
         return execute(nb, (folder, released.parent), student, self.limits, mode, (course,), warm, kept)
 
@@ -110,12 +115,19 @@ class SandboxExecute(NbGraderPreprocessor):
         settings = (released, self.limits, cast(Mode, self.mode), (course,))
         return trial.find_fault_once(*settings) if lasting is None else trial.find_fault(*settings, lasting, warm=False)
 
-    def _run_in_place(self, nb: NotebookNode, *whose: Any) -> Execution:
-        """Run a notebook that was not run ahead."""
-        with suppress(Exception):
+    def _run_first(self, nb: NotebookNode, *whose: Any) -> Execution:
+        """Run a notebook for the first time; `InDoubt` unless this run counts."""
+        try:
             execution = self.run(nb, *whose)
-            if not execution.doubt:
-                return execution
+        except Exception as error:
+            raise InDoubt(in_words(error)) from error
+        if execution.doubt:
+            raise InDoubt(execution.doubt)
+        return execution
+
+    def _run_both(self, nb: NotebookNode, *whose: Any) -> Execution:
+        with suppress(InDoubt):
+            return self._run_first(nb, *whose)
         return self.run_alone(nb, *whose)
 
     def preprocess(self, nb: NotebookNode, resources: dict) -> tuple[NotebookNode, dict]:
@@ -123,7 +135,8 @@ class SandboxExecute(NbGraderPreprocessor):
         execution: Execution | None = ours.get("execution")
         if execution is None or execution.fingerprint != notebook_record(nb).submission:
             folder, released, course = (Path(ours[name]) for name in ("folder", "released", "root"))
-            execution = self._run_in_place(nb, folder, released, resources["nbgrader"]["student"], course)
+            run = {"first": self._run_first, "alone": self.run_alone, "both": self._run_both}[ours["turn"]]
+            execution = run(nb, folder, released, resources["nbgrader"]["student"], course)
         for count, index in enumerate(sorted(execution.outputs), 1):
             nb.cells[index].outputs = execution.outputs[index]
             nb.cells[index].execution_count = count
@@ -138,6 +151,10 @@ class JudgeAnswers(NbGraderPreprocessor):
 
     An answer in which no misconception was found stays in the cell's metadata: the class report shows what it says.
     """
+
+    def preprocess(self, nb: NotebookNode, resources: dict) -> tuple[NotebookNode, dict]:
+        with _JUDGING:
+            return super().preprocess(nb, resources)
 
     def preprocess_cell(self, cell: NotebookNode, resources: dict, index: int) -> tuple[NotebookNode, dict]:
         if (check := check_name(cell)) is None:

@@ -32,6 +32,10 @@ class MachineFault(CourseError):
     """A submission cannot be graded on this machine now; the message says why, and what to do."""
 
 
+class InDoubt(Exception):
+    """A first run for whose end the machine may be to blame: it does not count, the notebook runs once more, alone."""
+
+
 @dataclass(frozen=True)
 class Execution:
     """What one run of one submission left behind.
@@ -61,10 +65,6 @@ class Execution:
     doubt: str | None = None
     starved: bool = False
     lived: float = 0.0
-
-    def __deepcopy__(self, memo: dict) -> Execution:
-        # nbconvert deep-copies its resources; a packet that a student nested a thousand times must not go through that.
-        return self
 
 
 def execute(

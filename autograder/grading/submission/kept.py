@@ -31,6 +31,11 @@ _MAX_BYTES = 64 << 20
 _LIBRARIES = ("numpy", "sympy", "mpmath", "matplotlib", "ipython", "ipykernel", "ipywidgets")
 
 
+def kept_path(course: Path, exercise: str, student: str, notebook: str) -> Path:
+    """The file in which the run of a student's notebook is kept."""
+    return course / FOLDER / exercise / student / f"{notebook}.json"
+
+
 @dataclass
 class KeptRun:
     """A run that nobody doubts.

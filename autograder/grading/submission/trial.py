@@ -13,7 +13,6 @@ import sys
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-import nbformat
 from nbformat.notebooknode import NotebookNode
 from nbformat.v4 import new_code_cell, new_notebook
 
@@ -21,6 +20,7 @@ from autograder.sandbox import KernelStartError, Limits, SandboxUnavailable, rea
 from dhkit.public import questions as public_questions
 
 from ..cells import check_cells, question_id
+from ..folders import released_notebook
 from .execution import Mode, last_packet
 
 _ALWAYS = ("import numpy", "import sympy", "import matplotlib.pyplot", "import ipywidgets", "import dhkit")
@@ -87,7 +87,7 @@ def find_fault(
         What is wrong with this machine and what to do, in a sentence; None if all went well.
     """
     paths = list(released)
-    nb = trial_notebook([nbformat.read(path, as_version=4) for path in paths], lasting)
+    nb = trial_notebook(map(released_notebook, paths), lasting)
     files, _ = read_folders((path.parent for path in paths), limits.disk // 2)
     settings = (nb, files, limits, mode, hidden, warm)
     return _fault(*settings) and _fault(*settings)
