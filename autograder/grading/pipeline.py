@@ -139,6 +139,8 @@ def _grade(
     with utils.setenv(NBGRADER_EXECUTION="autograde"):
         for student, future in _judged(submit, students, crew.jobs):
             if trial is not None:
+                if isinstance(trial.exception(), BrokenExecutor):
+                    trial = crew.trial(exercise)
                 trial.result()
             with _noting(failures, student):
                 converter.enter(student, future.result())

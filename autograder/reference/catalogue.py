@@ -50,13 +50,15 @@ def _robot(model: type[InverseModel] | None) -> Callable[[Callable[..., DHTable]
     def decorate(table: Callable[..., DHTable]) -> Callable[..., Robot]:
         signature = inspect.signature(table)
         lengths = [name for name, each in signature.parameters.items() if isinstance(each.default, int | float)]
+        letters = {name: sp.Symbol(name) for name in lengths}
+        only_lengths = cache(partial(table, **letters))
 
         @wraps(table)
         def robot(*args: Any, limits: Limits | None = None, **named: Any) -> Robot:
             given = signature.bind(*args, **named)
             given.apply_defaults()
-            letters = {name: sp.Symbol(name) for name in lengths}
-            in_letters = table(**{**given.arguments, **letters})
+            others = {name: value for name, value in given.arguments.items() if name not in letters}
+            in_letters = table(**others, **letters) if others else only_lengths()
             return _with_values(in_letters, model, {name: given.arguments[name] for name in lengths}, limits)
 
         limits = inspect.Parameter("limits", inspect.Parameter.KEYWORD_ONLY, default=None, annotation="Limits | None")

@@ -6,16 +6,19 @@ import shutil
 import sys
 import sysconfig
 import threading
-from concurrent.futures import Future
+from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from functools import partial
 from pathlib import Path
 
 import pytest
+from nbformat.v4 import new_notebook
 
 from autograder import cli, sandbox
 from autograder.grading import pipeline
 from autograder.grading.plugins.preprocessors import SandboxExecute
 from autograder.grading.submission import trial
-from autograder.grading.submission.execution import Execution, MachineFault, confirm
+from autograder.grading.submission.execution import Execution, InDoubt, MachineFault, confirm
 from autograder.sandbox import bubblewrap, clock, watch
 from autograder.sandbox.clock import Observation
 
@@ -59,47 +62,45 @@ def test_a_kernel_that_does_not_start_twice_is_the_machines():
         confirm(again, no_fault)
 
 
-def test_notebooks_in_doubt_run_again_after_the_others_and_alone():
+def test_submissions_in_doubt_are_done_again_after_the_others_and_alone():
     lock, inside, seen = threading.Lock(), set(), []
     both = threading.Barrier(2)
 
-    def enter(student, kind):
+    def judge(student, turn):
         with lock:
             inside.add(student)
-            seen.append((kind, student, len(inside)))
-
-    def leave(student):
+            seen.append((turn, student, len(inside)))
+        if turn == "first" and student in ("a", "b"):
+            both.wait(timeout=60)  # they do run side by side
         with lock:
             inside.remove(student)
+        if turn == "first" and student in ("a", "b"):
+            raise {"a": InDoubt("stopped after 30 s"), "b": BrokenProcessPool("killed")}[student]
+        return f"{student}, {turn}"
 
-    def run(student):
-        enter(student, "first")
-        if student in ("a", "b"):
-            both.wait(timeout=60)  # they do run side by side
-        leave(student)
-        if student == "b":
-            raise sandbox.KernelStartError("did not answer")
-        return {(student, "scara"): execution(doubt="stopped after 30 s" if student == "a" else None)}
-
-    def run_alone(student):
-        enter(student, "alone")
-        leave(student)
-        return {(student, "scara"): execution()}
-
-    order = [
-        (student, future.result()) for student, future in pipeline._run_ahead(run, run_alone, list("abcd"), jobs=2)
-    ]
-    assert sorted(student for student, _ in order[:2]) == ["c", "d"]
-    assert sorted(student for student, _ in order[2:]) == ["a", "b"]
+    with ThreadPoolExecutor(2) as threads:
+        submit = partial(threads.submit, judge)
+        order = [(student, done.result()) for student, done in pipeline._judged(submit, "abcd", jobs=2)]
+    assert sorted(order[:2]) == [("c", "c, first"), ("d", "d, first")]
+    assert sorted(order[2:]) == [("a", "a, alone"), ("b", "b, alone")]
     assert [entry[::2] for entry in seen if entry[0] == "alone"] == [("alone", 1)] * 2
     assert seen.index(next(entry for entry in seen if entry[0] == "alone")) == 4
-    assert all(not execution.doubt for _, executions in order for execution in executions.values())
 
 
-def test_a_failed_run_is_in_doubt():
-    future = Future()
-    future.set_exception(OSError(28, "No space left on device"))
-    assert pipeline._in_doubt(future)
+@pytest.mark.parametrize("how", ["fails", "in doubt"])
+def test_a_first_run_that_fails_or_ends_in_doubt_does_not_count(how, monkeypatch):
+    def run(self, *whose):
+        if how == "fails":
+            raise OSError(28, "No space left on device")
+        return execution(doubt="stopped after 30 s")
+
+    monkeypatch.setattr(SandboxExecute, "run", run)
+    resources = {
+        "autograder": {"turn": "first", "folder": "a", "released": "b", "root": "c"},
+        "nbgrader": {"student": "d"},
+    }
+    with pytest.raises(InDoubt, match="No space left|stopped after 30 s"):
+        SandboxExecute().preprocess(new_notebook(), resources)
 
 
 @pytest.fixture

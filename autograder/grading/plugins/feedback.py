@@ -71,7 +71,9 @@ class FeedbackExporter(HTMLExporter):
             nb, resources = plugin(nb, resources)
         return nb, resources
 
-    def from_notebook_node(self, nb: NotebookNode, resources: dict | None = None, **kw: Any) -> tuple[str, dict]:
+    def from_notebook_node(  # type: ignore[override]  # as nbconvert's own do
+        self, nb: NotebookNode, resources: dict | None = None, **kw: Any
+    ) -> tuple[str, dict]:
         """The page of a notebook, pictures with a text for those who cannot see them.
 
         HTMLExporter reads every page anew for that text, which takes longer than all the rest.

@@ -9,7 +9,7 @@ Lengths in metres, angles in radians, entries numeric or symbolic.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property, partial
 from numbers import Real
 from typing import Any
@@ -262,7 +262,10 @@ class DHTable:
 
     def with_values(self, values: Mapping[str, float], limits: Iterable[tuple[float, float]] | None = None) -> DHTable:
         """The same table with numbers behind its letters, and joint limits."""
-        return DHTable(self.rows, self.name, self.joints, self.base, self.tool, limits, values)
+        copy = object.__new__(DHTable)
+        kept = {name: value for name, value in self.__dict__.items() if name in {each.name for each in fields(self)}}
+        copy.__dict__.update(kept, limits=_checked_limits(limits, self.joints), values=dict(values))
+        return copy
 
     def to_classic(self) -> ClassicTable:
         """The same robot in classic DH: column a_i, alpha_i moved up by one row."""
