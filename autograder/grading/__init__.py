@@ -13,7 +13,8 @@ store          the result of a submission and its mark, stored together; exercis
 plugins/       nbgrader's converters, preprocessors and exporters, as this course configures them
 host           prepares a process that runs nbgrader
 course         a course folder with nbgrader opened on it
-pipeline       grades a class: kernels side by side, gradebook by one thread
+crew           threads or processes that restore, run, judge and lay out submissions
+pipeline       grades a class: a crew works side by side, one thread writes the gradebook
 results        what was found, one line per submission
 explain        how one verdict came about; changes: whose points moved when graded again
 returning      grades and pages as platforms take them back

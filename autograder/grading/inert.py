@@ -15,7 +15,6 @@ import nh3
 from latex2mathml.converter import convert
 from nbconvert.filters.markdown_mistune import IPythonRenderer, MarkdownWithMath
 from nbformat.notebooknode import NotebookNode
-from nbformat.v4 import new_output
 from pygments.token import STANDARD_TYPES
 
 import dhkit
@@ -80,15 +79,26 @@ def inert_outputs(outputs: Iterable, count: int) -> list[NotebookNode]:
     return [output for output in kept if output is not None]
 
 
+def shown(data: Mapping[str, str], **result: int | None) -> NotebookNode:
+    """An output that displays `data`, by media type; a result if it is given an ``execution_count``.
+
+    nbformat's own constructor validates each output by itself, which costs more than making them.
+    """
+    node = NotebookNode(output_type="display_data", metadata=NotebookNode(), data=NotebookNode(data))
+    if result:
+        node.update(output_type="execute_result", **result)
+    return node
+
+
 def _inert(output: dict, count: int) -> NotebookNode | None:
     kind = output.get("output_type")
     if kind == "stream":
         name = "stderr" if output.get("name") == "stderr" else "stdout"
-        return new_output("stream", name=name, text=_without_folders(_joined(output.get("text"))))
+        return NotebookNode(output_type="stream", name=name, text=_without_folders(_joined(output.get("text"))))
     if kind == "error":
         lines = output.get("traceback")
-        return new_output(
-            "error",
+        return NotebookNode(
+            output_type="error",
             ename=_joined(output.get("ename")),
             evalue=_joined(output.get("evalue")),
             traceback=[_without_folders(_joined(line)) for line in lines] if isinstance(lines, list) else [],
@@ -99,7 +109,7 @@ def _inert(output: dict, count: int) -> NotebookNode | None:
     data = {mime: text for mime, text in data.items() if mime not in ("image/png", "image/jpeg") or BASE64.match(text)}
     if not data:
         return None
-    return new_output(kind, data=data, **({"execution_count": count} if kind == "execute_result" else {}))
+    return shown(data, execution_count=count) if kind == "execute_result" else shown(data)
 
 
 def _without_folders(text: str) -> str:

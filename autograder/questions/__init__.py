@@ -35,7 +35,7 @@ def exercises() -> dict[str, tuple[Question, ...]]:
 def find(id: str) -> Question:
     """The question called `id`; a `KeyError` names the nearest ones."""
     exercise = id.partition(".")[0]
-    known = {question.id: question for question in of_exercise(exercise)} if exercise in _modules() else {}
+    known = {question.id: question for question in of_exercise(exercise)}
     try:
         return known[id]
     except KeyError:

@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Any, Literal, cast
 
 from nbformat.notebooknode import NotebookNode
-from nbformat.v4 import new_output
 from nbgrader.preprocessors import NbGraderPreprocessor
 from traitlets import Enum, Float, Integer, TraitType
 
@@ -40,7 +39,7 @@ from ..cells import (
 from ..entries import score
 from ..errors import in_words
 from ..folders import released_notebook
-from ..inert import terminal_text
+from ..inert import shown, terminal_text
 from ..store import StoredNotebook
 from ..submission import trial
 from ..submission.execution import Execution, InDoubt, Mode, confirm, execute
@@ -170,8 +169,8 @@ class JudgeAnswers(NbGraderPreprocessor):
             share, feedback = 1.0, f"**This question counts fully for everybody.** Of your answer:\n\n{feedback}"
         earned = score(share, float(cell.metadata.nbgrader["points"]))
         cell.outputs = [
-            new_output("display_data", data={"text/markdown": feedback, "text/plain": feedback}),
-            new_output("execute_result", data={"text/plain": str(earned)}, execution_count=cell.execution_count),
+            shown({"text/markdown": feedback, "text/plain": feedback}),
+            shown({"text/plain": str(earned)}, execution_count=cell.execution_count),
         ]
         trouble = terminal_text(evidence.trouble) if evidence.trouble else None
         answer = keep(question.id, evidence.packet) if is_unexplained(verdict.note) else None
