@@ -11,6 +11,7 @@ import matplotlib.pyplot as plt
 from IPython.display import Image, display
 from matplotlib.transforms import Bbox
 
+from .drawing.style import SHARP, shown_size
 from .drawing.view import Frame, held
 from .watched import is_watched
 
@@ -32,7 +33,7 @@ def explore(draw, **sliders: tuple[float, float, float]) -> None:
     camera = _Camera(draw)
     static = camera.picture(start)
     if not is_watched() or find_spec("ipywidgets") is None:
-        display(Image(static))
+        display(Image(static, **shown_size(static)))
         return
     import ipywidgets
 
@@ -42,13 +43,15 @@ def explore(draw, **sliders: tuple[float, float, float]) -> None:
         )
         for name, (low, high, value) in sliders.items()
     }
-    picture = ipywidgets.Image(
-        value=static, format="png", layout=ipywidgets.Layout(max_width="100%", width="max-content")
-    )
+    picture = ipywidgets.Image(format="png", layout=ipywidgets.Layout(max_width="100%"))
+
+    def put(png):
+        picture.value, picture.width = png, str(shown_size(png)["width"])
 
     def redraw(_change):
-        picture.value = camera.picture({name: control.value for name, control in controls.items()})
+        put(camera.picture({name: control.value for name, control in controls.items()}))
 
+    put(static)
     for control in controls.values():
         control.observe(redraw, names="value")
     box = ipywidgets.VBox([*controls.values(), picture])
@@ -59,7 +62,7 @@ def explore(draw, **sliders: tuple[float, float, float]) -> None:
         "application/vnd.jupyter.widget-view+json": view,
         "image/png": base64.b64encode(static).decode(),
     }
-    display(bundle, raw=True)
+    display(bundle, metadata={"image/png": shown_size(static)}, raw=True)
 
 
 def step_of(low: float, high: float, start: float) -> float:
@@ -93,6 +96,6 @@ class _Camera:
         box = figure.get_tightbbox().padded(0.1)
         self._boxes[size] = Bbox.union([box, self._boxes.get(size, box)])
         buffer = BytesIO()
-        figure.savefig(buffer, format="png", bbox_inches=self._boxes[size], dpi=90)
+        figure.savefig(buffer, format="png", bbox_inches=self._boxes[size], dpi=90 * SHARP)
         plt.close(figure)
         return buffer.getvalue()

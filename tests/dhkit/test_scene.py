@@ -213,9 +213,11 @@ def watched(monkeypatch):
 
 def test_a_scene_is_a_widget_with_the_still_drawing_beside_it(watched):
     scene = Scene(SCARA, LENGTHS)
-    bundle = scene._repr_mimebundle_()
+    bundle, metadata = scene._repr_mimebundle_()
     assert base64.b64decode(bundle["image/png"]).startswith(PNG)
     assert bundle[WIDGET]["model_id"] == scene._widget.model_id
+    # Sharp screens have two pixels for one.
+    assert int.from_bytes(scene.still()[16:20]) // 2 == metadata["image/png"]["width"]
     assert bundle["text/plain"] == "robot with 4 joints: θ₁, θ₂, d₂, θ₄"
     assert not plt.get_fignums()
 
@@ -236,22 +238,22 @@ def test_kernel_and_browser_share_the_posture(watched):
 
 
 def test_where_nobody_sits_before_the_notebook_there_is_no_widget():
-    assert WIDGET not in Scene(SCARA, LENGTHS)._repr_mimebundle_()
+    assert WIDGET not in Scene(SCARA, LENGTHS)._repr_mimebundle_()[0]
 
 
 def test_for_a_site_the_data_come_along(monkeypatch):
     monkeypatch.setenv("DHKIT_SCENES", "embedded")
     scene = Scene(SCARA, LENGTHS, title="</script><b>")
-    html = scene._repr_mimebundle_()["text/html"]
+    html = scene._repr_mimebundle_()[0]["text/html"]
     data = html.partition('<script type="application/json">')[2].removesuffix("</script></div>")
     assert json.loads(data) == scene.state() and "<" not in data
-    assert WIDGET not in scene._repr_mimebundle_()
+    assert WIDGET not in scene._repr_mimebundle_()[0]
 
 
 def test_without_anywidget_the_still_drawing_remains(monkeypatch, watched):
     monkeypatch.setitem(sys.modules, "anywidget", None)
     monkeypatch.delitem(sys.modules, "dhkit.scene.widget", raising=False)
-    bundle = Scene(SCARA, LENGTHS)._repr_mimebundle_()
+    bundle, _ = Scene(SCARA, LENGTHS)._repr_mimebundle_()
     assert WIDGET not in bundle
     assert base64.b64decode(bundle["image/png"]).startswith(PNG)
 
@@ -489,7 +491,7 @@ def test_drives_in_the_browser_are_those_of_the_reference_solver(robots):
 
 def test_a_parallel_scene_is_told_its_pose_and_tells_its_drives(watched, robots):
     scene = ParallelScene(robots.THREE_RPR.base, robots.THREE_RPR.platform, (0.55, 0.6, 0.35))
-    bundle = scene._repr_mimebundle_()
+    bundle, _ = scene._repr_mimebundle_()
     assert WIDGET in bundle and base64.b64decode(bundle["image/png"]).startswith(PNG)
     scene.pose = [0.5, 0.5, 0.1]
     assert scene._widget.pose == [0.5, 0.5, 0.1]

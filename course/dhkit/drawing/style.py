@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from functools import wraps
+from functools import cache, wraps
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patheffects import withStroke
+
+from ..watched import is_watched
 
 INK = "#222222"
 SOFT = "#8c8c8c"
@@ -41,6 +43,25 @@ STYLE = {
 }
 
 
+# Pixels of a picture for each one that it takes on a page: sharp screens have them, and paper has more.
+SHARP = 2
+
+
+def shown_size(png: bytes) -> dict[str, int]:
+    """Width and height that a picture with `SHARP` pixels for one takes on a page, as a notebook's metadata has them."""
+    return {side: int.from_bytes(png[at : at + 4]) // SHARP for side, at in (("width", 16), ("height", 20))}
+
+
+@cache
+def sharpen() -> None:
+    """From now on, figures of a notebook that somebody watches have `SHARP` pixels for one."""
+    if is_watched():
+        from IPython import get_ipython
+        from IPython.core.pylabtools import select_figure_formats
+
+        select_figure_formats(get_ipython(), {"retina"})
+
+
 def styled(draw):
     """Run a drawing function in the style of the course, leaving the reader's own settings alone."""
 
@@ -54,6 +75,7 @@ def styled(draw):
             return draw(*args, **kwargs)
         finally:
             plt.rcParams.update(kept)
+            sharpen()  # not before: the first figure loads Jupyter's backend, which chooses a format too
 
     return in_style
 

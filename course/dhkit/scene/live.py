@@ -8,6 +8,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+from ..drawing.style import SHARP, shown_size
 from ..watched import is_watched
 from .page import embed, write_page
 
@@ -49,23 +50,24 @@ class Live:
 
         ax = self._draw()
         buffer = BytesIO()
-        ax.figure.savefig(buffer, format="png", dpi=90, bbox_inches="tight")
+        ax.figure.savefig(buffer, format="png", dpi=90 * SHARP, bbox_inches="tight")
         plt.close(ax.figure)
         return buffer.getvalue()
 
-    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, Any]:
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> tuple[dict[str, Any], dict[str, Any]]:
         """The widget with the still drawing beside it, for a printed notebook or a kernel without widgets.
 
         With ``DHKIT_SCENES=embedded`` in the environment, which the builder of a site sets, the data come along for its pages.
         """
-        words, picture = self._in_words(), base64.b64encode(self.still()).decode()
-        bundle: dict[str, Any] = {"text/plain": words, "image/png": picture}
+        still = self.still()
+        words = self._in_words()
+        bundle: dict[str, Any] = {"text/plain": words, "image/png": base64.b64encode(still).decode()}
         if (widget := self._live()) is not None:
             view = {"version_major": 2, "version_minor": 0, "model_id": widget.model_id}
             bundle["application/vnd.jupyter.widget-view+json"] = view
         elif os.environ.get("DHKIT_SCENES") == "embedded":
-            bundle["text/html"] = embed(self.state(), picture, words)
-        return bundle
+            bundle["text/html"] = embed(self.state(), still, words)
+        return bundle, {"image/png": shown_size(still)}
 
     def _live(self) -> Any:
         """The widget, made at first use; None where there is none."""

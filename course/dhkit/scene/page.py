@@ -11,6 +11,8 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
+from ..drawing.style import shown_size
+
 _PAGE = """\
 <!doctype html>
 <html lang="en">
@@ -55,20 +57,21 @@ def write_page(title: str, state: dict[str, Any]) -> str:
     return _PAGE.format(hash=f"sha256-{digest}", title=html.escape(title), state=_data(state), script=program)
 
 
-def embed(state: dict[str, Any], picture: str, words: str) -> str:
+def embed(state: dict[str, Any], still: bytes, words: str) -> str:
     """An element with the still drawing and the data of a scene, which the program of a scene shows as that of a widget.
 
     Parameters
     ----------
     state : dict
         See `Scene.state`.
-    picture : str
-        The still drawing, PNG in base64.
+    still : bytes
+        The still drawing, PNG.
     words : str
         What stands for the picture where none is seen.
     """
-    still = f'<img src="data:image/png;base64,{picture}" alt="{html.escape(words)}">'
-    return f'<div class="dhkit-scene">{still}<script type="application/json">{_data(state)}</script></div>'
+    picture, width = base64.b64encode(still).decode(), shown_size(still)["width"]
+    image = f'<img src="data:image/png;base64,{picture}" width="{width}" alt="{html.escape(words)}">'
+    return f'<div class="dhkit-scene">{image}<script type="application/json">{_data(state)}</script></div>'
 
 
 def _data(state: dict[str, Any]) -> str:
