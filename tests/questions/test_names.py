@@ -36,12 +36,6 @@ ONCE_MISNAMED = {
         "sign_of_yaw",
         "pitch or the yaw",
     ),
-    "inverse of the inverse": (
-        "transforms.inverse",
-        lambda T: sympy.Matrix(T).inv().tolist(),
-        "other_way_round",
-        "seen from the part",
-    ),
     "the back forgotten on the limit": (
         "inverse_models.counts",
         lambda found: [*found[:2], 1, *found[3:]],

@@ -8,9 +8,7 @@ from autograder.judge.misconceptions import degrees, degrees_in_table, option, t
 from autograder.judge.steps import change_entry, exchange, negate
 
 from .model import (
-    FLIPPED,
     LEFT_HANDED,
-    PRINTED,
     choose_axes,
     draw_axes,
     find_frame,
@@ -19,10 +17,10 @@ from .model import (
     find_origin,
     find_parallel_link,
     find_x_axis,
-    leave_out_half_turns,
     move_to_joint,
     name_axes,
     read_parameters,
+    rewrite,
 )
 
 QUESTIONS = (
@@ -196,31 +194,34 @@ QUESTIONS = (
     ),
     Question(
         "parameters.flip",
-        reference=FLIPPED,
+        reference=rewrite,
         mistakes=(
             mistake(
                 "not_rewritten",
                 0.0,
                 "**This is the table as it was.** Two of its twists are negative; the question asks for a table of the same robot without a "
                 "negative twist.",
-                lambda _: PRINTED,
+                wrong={"turned": False},
             ),
             mistake(
                 "half_turn_forgotten",
                 0.3,
-                "**You changed the twists and nothing else: that is another robot.** With X_i turned around, the angles before and after it are "
+                "**You changed the signs and nothing else: that is another robot.** With X_i turned around, the angles before and after it are "
                 "counted from or to another arrow. Compare the two drawings.",
-                leave_out_half_turns(3, 4, 5, 6),
+                wrong=[{"before": False, "after": False}, {"before": False, "after": False, "lengths": False}],
             ),
             mistake(
                 "half_turn_on_one_side",
                 0.5,
                 "**The half turn is put in, but not taken out again.** An X that is turned around ends the angle of its own row and "
                 "begins the angle of the next row.",
-                leave_out_half_turns(4, 6),
-                leave_out_half_turns(3, 5),
-                leave_out_half_turns(3, 4),
-                leave_out_half_turns(5, 6),
+                wrong=[{"after": False}, {"before": False}],
+            ),
+            mistake(
+                "length_not_turned",
+                0.6,
+                "**A length has kept its sign.** a is counted along the X that you turned around: the same way is now walked against the arrow.",
+                wrong={"lengths": False},
             ),
             degrees_in_table(),
         ),

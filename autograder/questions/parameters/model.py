@@ -1,4 +1,4 @@
-"""Parameter rules: two frames to read, skew, parallel and meeting axes, a gripper, the RX-90 rewritten."""
+"""Parameter rules: two frames to read, skew, parallel and meeting axes, a gripper, a table rewritten."""
 
 from __future__ import annotations
 
@@ -6,11 +6,9 @@ import numpy as np
 import sympy
 
 from autograder.judge import mistake
-from autograder.reference import robots
 from dhkit.geometry import common_normal, link_axis, rotation
+from dhkit.own_arms import SIGNED_ARMS
 from dhm.lines import link, link_frame
-
-from ..shared.tables import list_rows
 
 
 def tidy(values) -> np.ndarray:
@@ -135,23 +133,23 @@ LEFT_HANDED = mistake(
     choose_axes((0, 1), (1, -1), (2, 1)),
 )
 
-# ---------------------------------------------------------------- the RX-90 rewritten
-
-PRINTED = list_rows(robots.RX90.table)
-HALF_TURNS = (0, 0, 1, 1, 1, 1)
-FLIPPED = [
-    [sigma, a, sympy.Abs(alpha), d, theta + half * sympy.pi]
-    for (sigma, a, alpha, d, theta), half in zip(PRINTED, HALF_TURNS)
-]
+# ---------------------------------------------------------------- a table rewritten
 
 
-def leave_out_half_turns(*rows: int):
-    """A step: the half turn is left out in the theta of these rows."""
+def rewrite(mine, *, turned=True, before=True, after=True, lengths=True) -> list[list]:
+    """The table of the student's arm with each X turned around about which a twist is negative.
 
-    def step(table):
-        return [[*row[:4], row[4] - (sympy.pi if i in rows else 0)] for i, row in enumerate(table, start=1)]
-
-    return step
+    Not `turned`, it stays as it was; without `before` or `after` the half turn is left out in the row before the twist or in
+    its own; without `lengths` those along the X that are turned around keep their sign.
+    """
+    printed = SIGNED_ARMS[mine.arm]
+    rows = [list(row) for row in printed]
+    for i, row in enumerate(printed):
+        if turned and row[2].is_negative:
+            rows[i - 1][4] += sympy.pi if before else 0
+            rows[i][1:3] = [-row[1] if lengths else row[1], -row[2]]
+            rows[i][4] += sympy.pi if after else 0
+    return rows
 
 
 # ---------------------------------------------------------------- a and alpha of any two axes

@@ -1,4 +1,4 @@
-"""Printed tables (MECA 953 and DH-m slides): conventions, repairs, the rank test, a table from joint origins."""
+"""Tables: conventions of printed ones, repairs, the rank test, a wrist from its axes, an arm from joint origins."""
 
 from __future__ import annotations
 
@@ -7,31 +7,38 @@ import sympy
 
 from autograder.judge import Question, mistake
 from autograder.judge.chain import SAME_FRAMES
-from autograder.judge.misconceptions import arguments_in_degrees, misprint, offset_missing, sign_of
+from autograder.judge.misconceptions import (
+    arguments_in_degrees,
+    classic_table,
+    degrees_in_table,
+    misprint,
+    offset_missing,
+    sign_of,
+)
 from autograder.judge.steps import change_cell, change_entry, negate, replace_entry
 
 from .model import (
     CLASSIC,
-    HALF,
     MIXED,
     MODIFIED,
     PRINTED_TABLES,
     PUMA_PRINTED_ROW,
     PUMA_ROW,
     RX90_CLASSIC,
-    WRIST,
-    WRIST_PRINTED,
     arm,
     draw_arms,
     draw_tables,
+    first,
     freedoms,
     gripper,
+    last,
     leave_alpha,
     move_x_pairs,
     move_z_pairs,
     name_arm,
     name_table,
     planar,
+    wrist,
 )
 
 QUESTIONS = (
@@ -42,38 +49,45 @@ QUESTIONS = (
             mistake(
                 "headers_believed",
                 0.1,
-                "**These are the headers.** All five claim the modified convention; two of them head classic rows, and one a mixture. "
+                "**These are the headers.** All five claim the modified convention; not all of the rows follow it. "
                 "Build each robot as its header says, and look at it.",
                 lambda _: [MODIFIED] * 5,
             ),
             mistake(
-                "classic_2r_not_seen",
+                "classic_cobot_not_seen",
                 0.6,
-                "**The planar 2R is taken at its word.** Then L1 is a part of the base, and theta2 moves nothing.",
-                replace_entry(1, MODIFIED),
-                replace_entry(1, MIXED),
+                "**The cobot is taken at its word.** Which of its axes would be parallel then, and which two would be one line?",
+                replace_entry(0, MODIFIED),
+                replace_entry(0, MIXED),
             ),
             mistake(
                 "tool_row_taken_for_classic",
                 0.6,
                 "**A length in the last row does not make a table classic.** The elbow arm has one row more than joints: its last row, "
                 "without a variable, is the tool.",
-                replace_entry(2, CLASSIC),
-                replace_entry(2, MIXED),
+                replace_entry(1, CLASSIC),
+                replace_entry(1, MIXED),
             ),
             mistake(
                 "classic_wrist_not_seen",
                 0.6,
                 "**Look at the last row of the wrist**: as a modified row it puts axes 5 and 6 on one line. Read the rows the other "
                 "way.",
-                replace_entry(3, MODIFIED),
+                replace_entry(2, MODIFIED),
+                replace_entry(2, MIXED),
+            ),
+            mistake(
+                "honest_header_doubted",
+                0.6,
+                "**The arm of seven axes is not what you say.** Read its first row the other way: which two axes would be one line?",
+                replace_entry(3, CLASSIC),
                 replace_entry(3, MIXED),
             ),
             mistake(
                 "mixed_table_not_seen",
                 0.6,
-                "**The PUMA-like table is of one convention only in part.** Test rows 1 and 6 in both readings: each time one of them "
-                "puts two axes on one line.",
+                "**The handling arm is of one convention only in part.** Test its first row and its last in both readings: each time one "
+                "of them puts two axes on one line.",
                 replace_entry(4, MODIFIED),
                 replace_entry(4, CLASSIC),
             ),
@@ -142,29 +156,26 @@ QUESTIONS = (
     ),
     Question(
         "tables.wrist",
-        reference=WRIST,
+        reference=wrist,
         mistakes=(
-            misprint(
-                WRIST_PRINTED,
-                "its rows are classic. Read as modified rows, the last one puts axes 5 and 6 on one line.",
-                share=0.1,
-            ),
-            mistake(
-                "twist_of_the_arm_kept",
-                0.6,
-                "**A twist stands before joint 4.** It would lead from axis 3 of an arm to axis 4; here Z3 lies on axis 4 already.",
-                change_cell(1, "alpha", lambda _: -HALF),
-                change_cell(1, "alpha", lambda _: HALF),
-            ),
+            classic_table(),
             sign_of("alpha", 2, 3),
+            offset_missing(2),
             mistake(
                 "hand_length_missing",
                 0.6,
-                "**d6 is missing.** The printed product has it in the last column.",
+                "**e is missing.** The end effector stands e behind the point where the axes meet: along which axis, in whose row?",
                 change_cell(3, "d", lambda _: 0),
             ),
+            mistake(
+                "hand_length_as_a",
+                0.5,
+                "**e stands in the wrong column.** a leads along X, from one axis to the next; where axes meet it is 0. e runs along an axis.",
+                lambda rows: [*rows[:2], [0, rows[2][3], rows[2][2], 0, rows[2][4]]],
+            ),
+            degrees_in_table(),
         ),
-        partial=0.6,
+        partial=0.4,
     ),
     Question(
         "tables.puma_row",
@@ -240,36 +251,27 @@ QUESTIONS = (
             mistake(
                 "rows_of_the_list_not_added",
                 0.5,
-                "**A d along a common axis is not complete.** Two rows of the list run along the same axis: with z1 = {z1} and z2 = {z2}, how "
-                "high lies the common normal of axes 1 and 2? And how far is it from the elbow to the wrist centre?",
-                wrong=[
-                    {"d1": lambda origins: origins.z1},
-                    {"d1": lambda origins: origins.z2},
-                    {"d4": lambda origins: origins.x4},
-                    {"d1": lambda origins: origins.z1, "d4": lambda origins: origins.x4},
-                ],
+                "**A d along a common axis is not complete.** Lines of the list can run along the same axis: with z1 = {z1} and z2 = {z2}, how "
+                "high lies the common normal of axes 1 and 2?",
+                wrong=[{"added": first}, {"added": last}],
             ),
             mistake(
                 "hypotenuse_for_length",
                 0.5,
                 "**The straight distance between two origins stands where one of its components belongs.** a runs along X, d along Z: two "
                 "legs of a triangle, not its long side.",
-                wrong=[
-                    {"a1": lambda origins: float(np.hypot(origins.x2, origins.z2))},
-                    {"d4": lambda origins: float(np.hypot(origins.x4 + origins.x5, origins.z4))},
-                    {"d4": lambda origins: float(np.hypot(origins.x4, origins.z4)) + origins.x5},
-                ],
+                wrong={"a1": lambda mine: float(np.hypot(mine.x2, mine.z2))},
             ),
-            offset_missing(2),
+            offset_missing(wrong=[{"offsets": slice(0)}, {"offsets": slice(1, None)}, {"offsets": slice(-1)}]),
             mistake(
-                "origin_of_joint_6",
+                "origin_of_the_last_joint",
                 0.7,
-                "**O6 was put where the list has joint 6.** Axes 4, 5 and 6 meet in one point, the wrist centre: with all three origins there "
-                "the table is shortest. The way ahead belongs to the gripper.",
-                wrong=[{"d6": lambda origins: origins.x6}, {"d6": lambda origins: origins.x6 + origins.xg}],
+                "**O5 was put where the list has joint 5, or the gripper.** It is where X4 and axis 5 meet, as told; the way ahead belongs to the "
+                "gripper.",
+                wrong=[{"d5": lambda mine: mine.x5}, {"d5": lambda mine: mine.x5 + mine.xg}],
             ),
-            sign_of("a", 4),
-            sign_of("alpha", 2, 4, 5, 6),
+            sign_of("a", 2),
+            sign_of("alpha", 2, 5),
         ),
         partial=0.6,
         pinned=SAME_FRAMES,
@@ -281,29 +283,26 @@ QUESTIONS = (
             mistake(
                 "not_turned",
                 0.4,
-                "**The axes are not turned.** At zero, compare frame 6 (Z6 ahead, X6 up) with the gripper's (x ahead, z up).",
-                wrong={"turn": np.eye(3)},
+                "**The axes are not turned.** At zero, compare frame 5 of your arm with the gripper's (z ahead, x down).",
+                wrong={"turned": False},
+            ),
+            mistake(
+                "x_up",
+                0.5,
+                "**The gripper's x points up.** It is said to point down.",
+                wrong={"down": -1},
             ),
             mistake(
                 "one_row_of_the_list",
                 0.6,
-                "**The way ahead is not complete.** From the wrist centre to the gripper there are two rows of the list: {x6} and {xg} m.",
-                wrong=[{"rows": ("xg",)}, {"rows": ("x6",)}],
+                "**The way ahead is not complete.** From O5 to the gripper there are two lines of the list: {x5} and {xg} m.",
+                wrong=[{"rows": ("xg",)}, {"rows": ("x5",)}],
             ),
             mistake(
                 "ahead_along_x",
                 0.6,
-                "**The way ahead is along x.** It is x of the *gripper*; in frame 6, from which this transform is seen, ahead is another axis.",
+                "**The way ahead is along x.** Ahead is x of the *file*; in frame 5, from which this transform is seen, ahead is another axis.",
                 wrong={"ahead": (1, 0, 0)},
-            ),
-            mistake(
-                "one_quarter_turn_only",
-                0.5,
-                "**One of the two turns is missing.** Compare all three axes, not only x: which way does the gripper's y point in frame 6?",
-                wrong=[
-                    {"turn": ((0.0, 0, -1), (0, 1, 0), (1, 0, 0))},
-                    {"turn": ((0.0, 0, 1), (0, 1, 0), (-1, 0, 0))},
-                ],
             ),
         ),
     ),

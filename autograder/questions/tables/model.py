@@ -1,18 +1,21 @@
-"""Tables of printed robots, classic and modified rows, the rank of a table, a table from joint origins."""
+"""Tables of printed robots, classic and modified rows, the rank of a table, tables of a wrist and of an arm that the id chooses."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 import sympy
 
 from autograder.reference import robots
-from dhkit.geometry import modified_dh
+from dhkit.geometry import modified_dh, rigid_transform
 
+from ..shared.pool import arm_of
 from ..shared.tables import list_rows
 
 HALF = sympy.pi / 2
 MODIFIED, CLASSIC, MIXED = 1, 2, 3
-PRINTED_TABLES = [MODIFIED, CLASSIC, MODIFIED, CLASSIC, MIXED]  # planar 3R, planar 2R, elbow arm, wrist, PUMA-like arm
+PRINTED_TABLES = [CLASSIC, MODIFIED, CLASSIC, MODIFIED, MIXED]  # cobot, elbow arm, wrist, seven axes, handling arm
 
 # ---------------------------------------------------------------- planar arms
 
@@ -75,8 +78,11 @@ def move_z_pairs(rows):
 # ---------------------------------------------------------------- the wrist and the PUMA-like arm
 
 
-WRIST = list_rows(robots.SPHERICAL_WRIST.table)
-WRIST_PRINTED = [[0, 0, -HALF, 0, WRIST[0][4]], [0, 0, HALF, 0, WRIST[1][4]], [0, 0, 0, *WRIST[2][3:]]]
+def wrist(mine) -> list[list]:
+    """The rows of the student's wrist."""
+    return list_rows(arm_of(mine).table)
+
+
 PUMA_ROW = list_rows(robots.PUMA.table)[5]
 PUMA_PRINTED_ROW = list_rows(robots.PUMA_PRINTED.table)[5]
 
@@ -163,29 +169,73 @@ def name_table(rows) -> str:
 # ---------------------------------------------------------------- a table from a list of joint origins
 
 
-KR210 = list_rows(robots.KR210.table)
+q1, q2, q3, q4, q5 = sympy.symbols("q1:6")
+
+Added = Callable[..., float]
 
 
-def arm(
-    mine,
-    d1=lambda origins: origins.z1 + origins.z2,
-    a1=lambda origins: origins.x2,
-    d4=lambda origins: origins.x4 + origins.x5,
-    d6=lambda origins: 0,
-) -> list[list]:
-    """The rows of an arm like the KR210; each keyword takes a length from the student's list of joint origins."""
-    lengths = {"d1": d1(mine), "a1": a1(mine), "a2": mine.z3, "a3": mine.z4, "d4": d4(mine)}
-    rows = [[lengths.get(str(cell), cell) for cell in row] for row in KR210]
-    rows[5][3] = d6(mine)
-    return rows
+def first(*lengths: float) -> float:
+    """The first of several lengths along one axis, for their sum."""
+    return lengths[0]
 
 
-def gripper(mine, turn=((0.0, 0, 1), (0, -1, 0), (1, 0, 0)), ahead=(0, 0, 1), rows=("x6", "xg")) -> list[list]:
-    """Transform from frame 6 to the gripper as nested lists.
+def last(*lengths: float) -> float:
+    return lengths[-1]
 
-    `turn` is its rotation, `ahead` the direction of the way to its origin, and `rows` are those of the list on this way.
+
+def total(*lengths: float) -> float:
+    return round(sum(lengths), 9)
+
+
+def arm(mine, *, added: Added = total, a1=lambda mine: mine.x2, d5=lambda mine: 0, offsets=slice(None)) -> list[list]:
+    """The rows of the student's arm.
+
+    `added` makes one d of the lengths that the list has along one axis, `a1` and `d5` take a length from the list, and of the
+    joint offsets only `offsets` are there.
     """
-    matrix = np.eye(4)
-    matrix[:3, :3] = turn
-    matrix[:3, 3] = np.array(ahead) * sum(mine[row] for row in rows)
+    height = added(mine.z1, mine.z2)
+    rows = {
+        "welder": [
+            [0, 0, 0, height, q1],
+            [0, a1(mine), -HALF, 0, q2 - HALF],
+            [0, mine.l3, 0, 0, q3 + HALF],
+            [0, mine.x4, 0, 0, q4 - HALF],
+            [0, 0, -HALF, d5(mine), q5 - HALF],
+        ],
+        "roller": [
+            [0, 0, 0, height, q1],
+            [0, a1(mine), -HALF, 0, q2 - HALF],
+            [0, 0, -HALF, added(mine.l3, mine.x4), q3],
+            [0, 0, HALF, 0, q4],
+            [0, mine.z4, -HALF, d5(mine), q5 + HALF],
+        ],
+        "lift": [
+            [1, 0, 0, q1 + height, 0],
+            [0, a1(mine), -HALF, 0, q2],
+            [0, mine.l3, 0, 0, q3],
+            [0, mine.x4, HALF, mine.z4, q4 + HALF],
+            [0, 0, HALF, d5(mine), q5 + HALF],
+        ],
+    }[mine.file]
+    constant = [i for i, row in enumerate(rows) if row[4] not in (0, q1, q2, q3, q4, q5)]
+    kept = constant[offsets]
+    return [
+        [*row[:4], row[4] if i in kept or i not in constant else sum(sympy.sympify(row[4]).free_symbols)]
+        for i, row in enumerate(rows)
+    ]
+
+
+DOWN = {"welder": (0, -1, 0), "roller": (0, 1, 0), "lift": (-1, 0, 0)}
+"""The direction down in frame 5 of each arm, all joints at zero."""
+
+
+def gripper(mine, *, down=1, ahead=(0, 0, 1), turned=True, rows=("x5", "xg")) -> list[list]:
+    """Transform from frame 5 to the gripper as nested lists.
+
+    `down` is 1, or -1 for up; `ahead` the direction of the way to the gripper's origin, and `rows` are those of the list on
+    this way; not `turned`, it has the axes of frame 5.
+    """
+    x = down * np.array(DOWN[mine.file])
+    turn = np.column_stack([x, np.cross((0, 0, 1), x), (0, 0, 1)]) if turned else np.eye(3)
+    matrix = rigid_transform(turn, np.array(ahead) * sum(mine[row] for row in rows))
     return [[int(cell) if cell == int(cell) else float(cell) for cell in row] for row in matrix]

@@ -184,12 +184,12 @@ def show_rewritten(table, printed, values: dict[str, float]):
     Returns
     -------
     list of 2 matplotlib Axes (3D)
-        The bodies belong in the same place; X3 and X5 may differ.
+        The bodies belong in the same place; X axes may point the other way.
     """
     cells = numbers(table, "table", (None, 5), values)
     panels = new_panels_3d(["printed", "yours"], width=4.2, height=4.6)
     for ax, robot in zip(panels, (printed, cells)):
-        draw_chain(robot, values, ax, frames=(3, 5))
+        draw_chain(robot, values, ax, frames=(1, 2, 3))
     return panels
 
 

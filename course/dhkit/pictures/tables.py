@@ -220,18 +220,20 @@ def show_on_origins(table, origins, axes, values: dict[str, float]):
 
 
 @own_result
-def show_gripper_frame(transform):
-    """Show the gripper frame beside frame 6.
+def show_gripper_frame(transform, name: str):
+    """Show the gripper frame beside the last frame of an arm.
 
     Parameters
     ----------
     transform : 4x4 matrix, lengths in metres
+    name : str
+        Index of the arm's frame.
 
     Returns
     -------
     matplotlib Axes (3D)
     """
     frame = numbers(transform, "transform", (4, 4), {})
-    ax = draw_frames_3d([np.eye(4), frame], ["6", "g"], size=0.12)
+    ax = draw_frames_3d([np.eye(4), frame], [name, "g"], size=0.12)
     say_if_not_rigid(ax, frame)
     return ax

@@ -70,10 +70,10 @@ def test_frames_of_a_table_stand_over_the_joint_origins():
     [((2, 2), -1, "left-handed"), ((0, 1), 0.5, "not orthogonal"), ((3, 0), 1, "not orthogonal")],
 )
 def test_what_no_motor_does_is_said_below_the_frame(cell, value, says):
-    assert not pictures.show_gripper_frame(np.eye(4)).figure.texts
+    assert not pictures.show_gripper_frame(np.eye(4), "5").figure.texts
     wrong = np.eye(4)
     wrong[cell] = value
-    assert says in pictures.show_gripper_frame(wrong).figure.texts[0].get_text()
+    assert says in pictures.show_gripper_frame(wrong, "5").figure.texts[0].get_text()
 
 
 BLANK = [[...] * 5] * 3
@@ -89,7 +89,7 @@ BLANK = [[...] * 5] * 3
         (lambda: pictures.show_planar(lambda lengths, angles: [1, 2], [0.5], [0.1]), "expected 3 numbers, found 2"),
         (lambda: pictures.show_freedoms(lambda rows: None, {"RX-90": RX90}), "not attempted yet"),
         (lambda: pictures.show_on_origins(BLANK, ORIGINS, AXES, {}), "not attempted yet"),
-        (lambda: pictures.show_gripper_frame(...), "not attempted yet"),
+        (lambda: pictures.show_gripper_frame(..., "5"), "not attempted yet"),
     ],
 )
 def test_what_cannot_be_drawn_is_said_on_a_card(picture, says):
