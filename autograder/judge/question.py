@@ -164,6 +164,8 @@ class Question:
         parameter ``mine`` holds the student's numbers.
     follows : Follow, optional
         The earlier question whose error is not counted a second time.
+    depends : tuple of str, optional
+        Of a personal question, those of the student's numbers that change anything; all of them by default.
     """
 
     id: str
@@ -181,6 +183,7 @@ class Question:
     case: Callable[..., str] = lambda *args: "the values tried"
     residual: Callable[..., np.ndarray] | None = None
     follows: Follow | None = None
+    depends: tuple[str, ...] | None = None
 
     def __post_init__(self) -> None:
         parameters = _parameters(self.reference) if _is_function(self.reference) else {}

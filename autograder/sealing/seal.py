@@ -136,20 +136,35 @@ def seal_exercise(
 
 def decisions(questions: Iterable[Question]) -> list[Decision]:
     """Which of the questions have a verdict at home, without sealing them."""
-    return [_decide(question, _sight(question), _rights(question, variants.SETS)) for question in questions]
+    return [
+        _decide(question, _sight(question), _rights(question, _different(question, variants.SETS)[0]))
+        for question in questions
+    ]
 
 
-def _rights(question: Question, sets: int) -> list[Look | None]:
-    """The right answer for every set of numbers; once where it is the same for everybody."""
-    return [_seen(question, which) for which in range(sets if question.personal else 1)]
+def _different(question: Question, sets: int) -> tuple[list[int], list[int]]:
+    """Sets of numbers that lead to different answers, and for every set the place of its like among them."""
+    if not question.personal:
+        return [0], []
+    if question.depends is None:
+        return list(range(sets)), []
+    numbers = [variants.numbers_of_set(question.exercise, which) for which in range(sets)]
+    counting = [tuple(one[name] for name in question.depends) for one in numbers]
+    places = {values: place for place, values in enumerate(dict.fromkeys(counting))}
+    return [counting.index(values) for values in places], [places[values] for values in counting]
+
+
+def _rights(question: Question, sets: Iterable[int]) -> list[Look | None]:
+    """The right answer for each of these sets of numbers."""
+    return [_seen(question, which) for which in sets]
 
 
 def _seal_question(
     head: SealedExercise, question: Question, solution: str, sets: int, least: float, pool: ThreadPoolExecutor
 ) -> tuple[SealedQuestion, Decision]:
     sight = _sight(question)
-    numbers_sets = range(sets if question.personal else 1)
-    decision = _decide(question, sight, _rights(question, sets), least)
+    numbers_sets, shared = _different(question, sets)
+    decision = _decide(question, sight, _rights(question, numbers_sets), least)
     if decision.why_not:
         return SealedQuestion(why_not=decision.why_not), decision
     calls = [_calls(question, which) for which in numbers_sets]
@@ -159,28 +174,27 @@ def _seal_question(
     length = length_for(max(len(one.witness) for some in to_seal for one in some))
     most = max(map(len, to_seal))
 
-    def keyed(which: int, one: Sealable) -> tuple[bytes, bytes]:
-        lock = lock_of(head, question.id, one.part, question.personal, which, sight.tolerance)
+    def keyed(place: int, one: Sealable) -> tuple[bytes, bytes]:
+        lock = lock_of(head, question.id, one.part, question.personal, place, sight.tolerance)
         return lock.key(lock.cell(one.numbers))
 
-    keys = list(
-        pool.map(lambda job: keyed(*job), ((which, one) for which, some in zip(numbers_sets, to_seal) for one in some))
-    )
+    keys = list(pool.map(lambda job: keyed(*job), ((place, one) for place, some in enumerate(to_seal) for one in some)))
     # Whoever has the right answer for the first set has made it; from nothing else do the keys of texts follow.
     secret = keys[0][1]
     text_keys = {said: derived(secret, f"text {number}") for said, number in numbered.items()}
     size = max(len(msgspec.json.encode(said)) for said in texts)
     remaining = iter(keys)
     envelopes = []
-    for which, some in zip(numbers_sets, to_seal):
+    for place, some in enumerate(to_seal):
         found = [seal(*next(remaining), numbered[one.said], text_keys[one.said], one.witness, length) for one in some]
-        found += [_filler(secret, which, number, length) for number in range(len(some), most)]
+        found += [_filler(secret, place, number, length) for number in range(len(some), most)]
         envelopes.append(b"".join(sorted(found)))
     entry = SealedQuestion(
         sight=sight,
         calls=[one.arguments for one in calls],
         cases=[one.cases for one in calls],
         personal=question.personal,
+        shared=shared,
         length=length,
         envelopes=envelopes,
         texts=[seal_text(text_keys[said], said, size) for said in texts],
@@ -190,9 +204,9 @@ def _seal_question(
     return entry, Decision(question.id, decision.bits, "", len(notes), len(parts))
 
 
-def _filler(secret: bytes, which: int, number: int, length: int) -> bytes:
+def _filler(secret: bytes, place: int, number: int, length: int) -> bytes:
     """What cannot be told from an envelope, so that their number says nothing."""
-    return hashlib.shake_256(derived(secret, f"filler {which} {number}")).digest(length)
+    return hashlib.shake_256(derived(secret, f"filler {place} {number}")).digest(length)
 
 
 def _sight(question: Question) -> Sight:

@@ -1,7 +1,7 @@
 """Arms that the lectures do not show, by their axes in space: which one is yours follows from your id.
 
 ``arm = arm_of(mine)`` at the end of a cell says where its axes are, ``draw_arm(arm)`` draws it. A table it does not
-have: that is what the exercises ask for.
+have: that is what the exercises ask for. ``log_of(mine)`` is what a tracker saw of one that was really built.
 """
 
 from __future__ import annotations
@@ -140,6 +140,56 @@ def arm_from(fields: Mapping[str, Any], lengths: Mapping[str, float] | None = No
         tuple(end["direction"]),
         fields["lengths"] if lengths is None else lengths,
         end.get("frame", str(len(joints))),
+    )
+
+
+@dataclass(frozen=True)
+class Log:
+    """What a tracker saw: an arm that was built is never quite the one that was drawn.
+
+    Attributes
+    ----------
+    joints : tuple of str
+        Names of the joint variables.
+    slides : tuple of bool
+        Which of them slide.
+    q : tuple of tuple
+        Joint values, one row for each measurement, as the controller shows them: **degrees** and **millimetres**.
+    points : tuple of tuple
+        Where the origin of the end effector's frame was, in frame 0, in millimetres.
+    asked : tuple of float
+        Joint values that have not been tried.
+    """
+
+    joints: tuple[str, ...]
+    slides: tuple[bool, ...]
+    q: tuple[tuple[float, ...], ...]
+    points: tuple[tuple[float, ...], ...]
+    asked: tuple[float, ...]
+
+    def _repr_markdown_(self) -> str:
+        units = ["mm" if slides else "degrees" for slides in self.slides]
+        heads = [
+            *(f"${said_letter(name)}$, {unit}" for name, unit in zip(self.joints, units)),
+            "x, mm",
+            "y, mm",
+            "z, mm",
+        ]
+        rows = [[*map(str, q), *map(str, point)] for q, point in zip(self.q, self.points)]
+        rows.append([*map(str, self.asked), "?", "?", "?"])
+        lines = ["| " + " | ".join(row) + " |" for row in (heads, ["---"] * len(heads), *rows)]
+        return "\n".join(lines)
+
+
+def log_of(mine: Mapping[str, object]) -> Log:
+    """The log of your own arm."""
+    fields = _arms()[str(mine["arm"])]
+    if "log" not in fields:
+        raise ValueError(f"{mine['arm']} has not been measured")
+    joints, log = fields["joints"], fields["log"]
+    rows = {key: tuple(map(tuple, log[key])) for key in ("q", "points")}
+    return Log(
+        tuple(one["name"] for one in joints), tuple(one["slides"] for one in joints), **rows, asked=tuple(log["asked"])
     )
 
 

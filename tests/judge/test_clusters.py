@@ -14,11 +14,32 @@ from autograder.judge.clusters import MAX_KEPT, Attempt, cluster, is_unexplained
 from autograder.judge.decode import Call, Constant, Number, Symbol, Text, decode_answer
 from autograder.judge.evaluate import evaluate
 from autograder.judge.written import LIMIT, written
-from dhkit import wire
+from dhkit import public, wire
 
 t1, t2, a2, a3, d2, x, y, z = sympy.symbols("t1 t2 a2 a3 d2 x y z")
-MODEL = Question("scara.model", [a2 * sympy.cos(t1), a2 * sympy.sin(t1), -d2, t1], angles=(3,))
-TABLE = Question("scara.table", [[0, 0, 0, 0, t1], [0, a2, 0, 0, t2], [1, a3, 0, -d2, 0], [0, 0, 0, 0, 0]])
+SYMBOLS = ["t1", "t2", "t4", "a2", "a3", "d2"]
+
+
+def asked(id, table, *args, **kwargs):
+    """A question of these tests alone, whose public half is `table`."""
+    question = Question(id, *args, **kwargs)
+    question.__dict__["public"] = public.from_table(
+        id, {"title": id, "minutes": 1, "hints": ["one", "two"], "expected": "it", **table}
+    )
+    return question
+
+
+MODEL = asked(
+    "scara.model",
+    {"kind": "vector", "shape": [4], "symbols": SYMBOLS},
+    [a2 * sympy.cos(t1), a2 * sympy.sin(t1), -d2, t1],
+    angles=(3,),
+)
+TABLE = asked(
+    "scara.table",
+    {"kind": "dh_table", "shape": [4, 5], "symbols": SYMBOLS, "joints": SYMBOLS[:3] + ["d2"]},
+    [[0, 0, 0, 0, t1], [0, a2, 0, 0, t2], [1, a3, 0, -d2, 0], [0, 0, 0, 0, 0]],
+)
 POSTURES = Question("scara.postures", [[0, 0, 0, 0]], angles=(0, 1, 3), tolerance=1e-3)
 FORWARD = Question("scara.forward", max)
 CHOICE = Question("scara.d2_sign", "B")

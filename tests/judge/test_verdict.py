@@ -5,8 +5,10 @@ import pytest
 import sympy
 from answers import verdict
 
-from autograder.judge import Evidence, Family, Question, following, is_forgivable, judge, kinds, mistake
+from autograder.judge import Evidence, Family, Follow, Question, following, is_forgivable, judge, kinds, mistake
+from autograder.judge.chain import SAME_SENSES
 from autograder.judge.decode import decode
+from autograder.judge.misconceptions import classic_table, columns_exchanged
 from autograder.questions import find
 from dhkit import public, variants, wire
 from dhkit.public import from_table
@@ -35,6 +37,19 @@ TABLES = {
         "kind": "function",
         "expected": "a function",
         "returns": {"kind": "vector", "expected": "two numbers", "shape": [2]},
+    },
+    "arm.rows": {
+        "kind": "dh_table",
+        "expected": "four rows [sigma, a, alpha, d, theta]",
+        "shape": [4, 5],
+        "symbols": ["t1", "t2", "d2", "t4", "a2", "a3"],
+        "joints": ["t1", "t2", "d2", "t4"],
+    },
+    "arm.product": {
+        "kind": "transform",
+        "expected": "a 4x4 matrix",
+        "shape": [4, 4],
+        "symbols": ["t1", "t2", "d2", "t4", "a2", "a3"],
     },
     "arm.T": {"kind": "transform", "expected": "a 4x4 matrix", "shape": [4, 4]},
 }
@@ -144,38 +159,40 @@ def hand(rows):
     return result
 
 
+TABLE = Question("arm.rows", ROWS, (classic_table(), columns_exchanged("a", "d")), partial=0.6, pinned=SAME_SENSES)
+PRODUCT = Question("arm.product", hand(ROWS), follows=Follow("arm.rows", following.product_of_table))
+
+
 def test_the_right_product_of_a_wrong_table_earns_the_points_of_the_product():
     wrong = [ROWS[0], [0, a2 + a3, 0.3, 0, t2 + 1], *ROWS[2:]]
-    before = {"scara.table": evidence("scara.table", wrong)}
-    assert judged(find("scara.table"), wrong).share < 1
+    before = {"arm.rows": evidence("arm.rows", wrong)}
+    assert judged(TABLE, wrong).share < 1
     product = hand(wrong)
-    assert judged(find("scara.T04"), product).share < 1
-    found = judged(find("scara.T04"), product, earlier=before)
+    assert judged(PRODUCT, product).share < 1
+    found = judged(PRODUCT, product, earlier=before)
     assert (found.note, found.share) == ("right_from_earlier", 1.0)
-    model = [*product[:3, 3], t1 + t2 + t4 + 1]
-    assert judged(find("scara.model"), [*hand(ROWS)[:3, 3], t1 + t2 + t4], earlier=before).note == "right"
-    assert judged(find("scara.model"), model).share < 1
+    assert judged(PRODUCT, hand(ROWS), earlier=before).note == "right"
 
 
 def test_where_a_length_got_lost_nothing_follows():
     wrong = [ROWS[0], [0, 0, 0, 0, t2], *ROWS[2:]]
-    before = {"scara.table": evidence("scara.table", wrong)}
-    assert is_forgivable(judged(find("scara.table"), wrong))
-    assert judged(find("scara.T04"), hand(wrong), earlier=before).note != "right_from_earlier"
+    before = {"arm.rows": evidence("arm.rows", wrong)}
+    assert is_forgivable(judged(TABLE, wrong))
+    assert judged(PRODUCT, hand(wrong), earlier=before).note != "right_from_earlier"
 
 
 def test_another_product_than_that_of_the_table_is_still_wrong():
     wrong = [ROWS[0], [0, a2 + a3, 0.3, 0, t2 + 1], *ROWS[2:]]
     product = hand(wrong)
     product[0, 3] += a2 / 10
-    found = judged(find("scara.T04"), product, earlier={"scara.table": evidence("scara.table", wrong)})
+    found = judged(PRODUCT, product, earlier={"arm.rows": evidence("arm.rows", wrong)})
     assert found.share < 1
 
 
 @pytest.mark.parametrize("table", [None, "text", [[...] * 5] * 4, [[1 / sympy.Symbol("t1")] * 5] * 4, {"a": 1}])
 def test_an_earlier_answer_that_says_nothing_forgives_nothing(table):
-    assert judged(find("scara.T04"), sympy.eye(4), earlier={"scara.table": evidence("scara.table", table)}).share < 1
-    assert judged(find("scara.T04"), sympy.eye(4), earlier={"scara.table": Evidence(None)}).share < 1
+    assert judged(PRODUCT, sympy.eye(4), earlier={"arm.rows": evidence("arm.rows", table)}).share < 1
+    assert judged(PRODUCT, sympy.eye(4), earlier={"arm.rows": Evidence(None)}).share < 1
 
 
 def test_the_product_of_a_table_follows_from_its_values():
@@ -186,7 +203,7 @@ def test_the_product_of_a_table_follows_from_its_values():
 
 def test_only_a_named_mistake_or_one_slip_is_forgiven_later():
     """From a table of zeros follows the identity: a guess must not earn the points of the product."""
-    table = find("scara.table")
+    table = TABLE
     named = next(node for node in table.mistakes if node.note == "classic_table")
     assert is_forgivable(judged(table, ROWS))
     assert is_forgivable(judged(table, table.answer(ADA, *named.ways[:1])))
@@ -247,7 +264,7 @@ def test_degrees_are_named_also_where_some_targets_have_no_solution():
 
 @pytest.mark.parametrize("rows", [[[0] * 5] * 4, [[0, 1, 2, 3, 4]] * 4])
 def test_two_tables_without_any_joint_are_compared_cell_by_cell(rows):
-    question = find("scara.table")
+    question = TABLE
     student, other = (kinds.read(question.form, decode(wire.encode(each))) for each in (rows, [[0, 7, 0, 0, 0]] * 4))
     assert not kinds.compare(question.form, student, other, kinds.Setting(question.samples)).equal
 

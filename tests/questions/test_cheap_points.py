@@ -175,7 +175,7 @@ PARTS = [
     ("parameters.gripper", "the position of the statement alone", lambda T: filled(T, np.eye(3)[[1, 2, 0]], np.s_[:3, :3]), 0),
     ("parameters.gripper", "the rotation alone", lambda T: filled(T, 0.123, np.s_[:3, 3]), 0.5),
     ("scara.table", "row 2 wrong", lambda rows: filled(rows, 0.7, (1, 1), (1, 3)), 0.6),
-    ("scara.table", "rows 2 and 3 wrong", lambda rows: filled(rows, 0.7, (1, 1), (2, 2)), 0),
+    ("scara.table", "rows 2 and 3 wrong", lambda rows: filled(rows, 0.7, (1, 1), (2, 2)), 0.5),
 ]  # fmt: skip
 
 

@@ -55,12 +55,6 @@ ONCE_MISNAMED = {
         "extrinsic_for_intrinsic+transposed_rotation",
         "rot_axis",
     ),
-    "rot_axis in the DHm matrix": (
-        "scara.dhm",
-        lambda T: T.subs({theta: -theta, sympy.Symbol("alpha"): -sympy.Symbol("alpha")}, simultaneous=True),
-        "sign_of_alpha",
-        "rot_axis",
-    ),
 }
 
 

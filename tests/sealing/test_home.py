@@ -18,7 +18,9 @@ from dhkit.variants import variant
 pytestmark = pytest.mark.slow
 
 t1, t2, t4, a2, a3, d2 = symbols("t1 t2 t4 a2 a3 d2")
-MODEL = [a2 * cos(t1) + a3 * cos(t1 + t2), a2 * sin(t1) + a3 * sin(t1 + t2), -d2, t1 + t2 + t4]
+MODEL = find("scara.model").answer("ada")
+MISTAKEN = find("scara.model").answer("ada", find("scara.model").mistakes[0].ways[0])
+SCARA = [a2 * cos(t1) + a3 * cos(t1 + t2), a2 * sin(t1) + a3 * sin(t1 + t2), -d2]
 POINTS = {"scara.model": 2.0, "scara.T04": 3.0, "scara.d2_sign": 1.0, "scara.postures": 3.0}
 
 
@@ -38,7 +40,7 @@ def student(sealed, monkeypatch):
     import sys
 
     monkeypatch.chdir(sealed)
-    monkeypatch.setattr(variants, "_typed", {})
+    monkeypatch.setattr(variants, "_typed", {"scara": "ada"})
     monkeypatch.setattr(sys.modules["dhkit.home.progress"], "_latest", {})
     monkeypatch.setattr(sys.modules["dhkit.home.practice"], "_rounds", {})
     monkeypatch.setattr(sys.modules["dhkit.home.practice"], "_streaks", {})
@@ -51,7 +53,7 @@ def said(capsys, id, answer):
 
 def test_a_right_answer_is_said_to_be_right_and_unfolds_its_solution(capsys):
     assert said(capsys, "scara.model", MODEL).splitlines() == [
-        "Direct model x, y, z, theta: right",
+        "Where the end effector is: right",
         '  ✓ how it goes: solution("scara.model")',
     ]
     solution("scara.model")
@@ -59,9 +61,9 @@ def test_a_right_answer_is_said_to_be_right_and_unfolds_its_solution(capsys):
 
 
 def test_a_mistake_is_named_at_once(capsys):
-    out = said(capsys, "scara.model", [*MODEL[:2], d2, MODEL[3]])
-    assert out.splitlines()[0] == "Direct model x, y, z, theta: not right yet"
-    feedback = next(node.feedback for node in find("scara.model").mistakes if node.note == "sign_of_d2")
+    out = said(capsys, "scara.model", MISTAKEN)
+    assert out.splitlines()[0] == "Where the end effector is: not right yet"
+    feedback = next(node.feedback for node in find("scara.model").mistakes if node.note == "seen_from_frame_1")
     assert feedback in out
     solution("scara.model")
     assert "it unfolds when your answer is right" in capsys.readouterr().out
@@ -71,11 +73,11 @@ def test_a_mistake_is_named_at_once(capsys):
     ("answer", "state"),
     [
         (..., "blank"),
-        ([..., 1, 2, 3], "partly"),
+        ([..., 1, 2], "partly"),
         ("nothing", "form"),
-        ([1, 2, 3, 4], "not_right"),
+        ([1, 2, 3], "not_right"),
         (MODEL, "right"),
-        ([*MODEL[:2], d2, MODEL[3]], "mistake"),
+        (MISTAKEN, "mistake"),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )
@@ -94,7 +96,7 @@ def test_no_tick_for_what_is_not_known(capsys):
 
 def test_a_right_block_of_a_wrong_transform_is_said():
     T = eye(4)
-    T[:3, 3] = Matrix(MODEL[:3])
+    T[:3, 3] = Matrix(SCARA)
     found = verdict("scara.T04", T)
     assert (found.state, found.text) == ("partly", "right already: position")
     c, s = cos(t1 + t2 + t4), sin(t1 + t2 + t4)
@@ -128,7 +130,7 @@ def test_progress_counts_what_is_sure_and_what_the_grader_decides():
     assert 0 < found.minutes_left < sum(row.minutes for row in found.rows)
     assert "2 of 9 points sure, 1 with the grader" in repr(found)
     assert "<table>" in found._repr_html_() and "handed in, the grader decides" in found._repr_html_()
-    check("scara.model", [0, 0, 0, 0])
+    check("scara.model", [0, 0, 0])
     assert progress().sure == 0
 
 
@@ -159,7 +161,7 @@ def test_practice_gives_other_numbers_and_counts_what_is_right_in_a_row(capsys):
 
 
 @pytest.mark.parametrize(
-    ("id", "said"), [("scara.model", "the same for everybody"), ("scara.d2_sign", "nothing to practise with")]
+    ("id", "said"), [("scara.T04", "the same for everybody"), ("scara.d2_sign", "nothing to practise with")]
 )
 def test_practice_says_why_there_is_none(id, said):
     with pytest.raises(ValueError, match=said):

@@ -1,38 +1,27 @@
-"""SCARA (MECA 953 slides): table, recursion, direct model, the sign of d2, postures."""
+"""The SCARA of the MECA 953 slides, and an arm of one's own: table, transform, position, measured lengths."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from autograder.judge import Follow, Question, following, mistake
-from autograder.judge.chain import SAME_SENSES
+from autograder.judge import Question, mistake
 from autograder.judge.misconceptions import (
-    angle_not_summed,
     angles_subtracted,
     arguments_in_degrees,
     classic_matrix,
-    classic_table,
-    columns_exchanged,
     degrees,
     one_factor_missing,
     option,
     posture_missing,
-    product,
     reversed_product,
-    revolute_everywhere,
-    sign_of,
-    symbol_negated,
     transposed_rotation,
     with_first_theta1,
 )
 from autograder.judge.steps import in_each_row, negate
 
+from ..shared.own_arm import position_of_own_arm, table_of_own_arm, transform_of_own_arm
 from .model import (
-    ABSOLUTE_MODEL,
     D2_IS_A_DEPTH,
-    GENERAL,
-    GENERAL_MATRIX,
-    MODEL,
     ROWS,
     TRANSFORMS,
     U0,
@@ -43,56 +32,15 @@ from .model import (
     quill_turned,
     residual,
     share_t1_and_heading,
-    t1,
     t2,
 )
+from .own_arm import MEASURED
 
 QUESTIONS = (
-    Question(
-        "scara.table",
-        reference=ROWS,
-        mistakes=(
-            sign_of("d", 3, note="sign_of_d2", share=0.7, feedback=D2_IS_A_DEPTH),
-            classic_table(),
-            columns_exchanged("a", "d"),
-            columns_exchanged("a", "alpha", share=0.4),
-            revolute_everywhere(),
-        ),
-        partial=0.6,
-        pinned=SAME_SENSES,
-    ),
-    Question(
-        "scara.dhm",
-        reference=GENERAL_MATRIX,
-        mistakes=(
-            classic_matrix(GENERAL),
-            symbol_negated(
-                GENERAL[1],
-                "sign_of_alpha",
-                "**alpha turns the wrong way.** Write Rot_x(alpha) alone and see where it sends the y axis.",
-                0.5,
-            ),
-            transposed_rotation(),
-        ),
-    ),
-    Question(
-        "scara.U1",
-        reference=U1,
-        mistakes=(
-            quill_turned(),
-            reversed_product(*TRANSFORMS[1:]),
-            classic_matrix(*(row[1:] for row in ROWS[1:]), note="classic_matrices"),
-            mistake(
-                "one_matrix_only",
-                0.2,
-                "**This is one elementary matrix.** U1 gathers everything from frame 1 to the hand.",
-                *(lambda _, matrix=matrix: matrix for matrix in TRANSFORMS[1:3]),
-            ),
-            one_factor_missing(
-                product(TRANSFORMS[2:]), feedback="**The recursion stopped one step too early.** This is U2 = 2T4."
-            ),
-        ),
-    ),
+    table_of_own_arm("scara.table", joints=4),
+    transform_of_own_arm("scara.T0E", table="scara.table"),
+    position_of_own_arm("scara.model", transform_id="scara.T0E"),
+    MEASURED,
     Question(
         "scara.T04",
         reference=U0,
@@ -107,25 +55,6 @@ QUESTIONS = (
                 feedback="**The recursion stopped one step too early.** This is U1 = 1T4: the first joint is not in it.",
             ),
         ),
-        follows=Follow("scara.table", following.product_of_table),
-    ),
-    Question(
-        "scara.model",
-        reference=MODEL,
-        mistakes=(
-            quill_turned(),
-            angles_subtracted(t2),
-            angle_not_summed(ABSOLUTE_MODEL),
-            mistake(
-                "theta4_left_out",
-                0.7,
-                "**The hand's own joint is missing in theta.** Joint 4 turns the hand too.",
-                lambda model: [*model[:3], t1 + t2],
-            ),
-        ),
-        partial=0.7,
-        angles=(3,),
-        follows=Follow("scara.T04", lambda T04: np.column_stack([following.position(T04), following.heading(T04)])),
     ),
     Question(
         "scara.d2_sign",

@@ -6,28 +6,22 @@ import numpy as np
 import sympy
 
 from autograder.judge.misconceptions import product, symbol_negated
-from autograder.reference import DHTable, robots
+from autograder.reference import robots
 from dhm.transforms import classic_dh
 
 from ..shared.residuals import distance_and_turn
 from ..shared.tables import list_rows
 
 t1, t2, t4, a2, a3, d2 = sympy.symbols("t1 t2 t4 a2 a3 d2")
-GENERAL = sympy.symbols("a alpha d theta")
-GENERAL_MATRIX = DHTable([(0, *GENERAL)], joints=GENERAL[3:]).transforms()[0]
 
 TABLE = robots.SCARA.table
 ROWS = list_rows(TABLE)
 TRANSFORMS = TABLE.transforms()
 U0, U1, *_ = TABLE.recursion()
-MODEL = [*U0[:3, 3], t1 + t2 + t4]
-
-# Both angles counted from the x axis.
-ABSOLUTE_MODEL = [a2 * sympy.cos(t1) + a3 * sympy.cos(t2), a2 * sympy.sin(t1) + a3 * sympy.sin(t2), *MODEL[2:]]
 
 D2_IS_A_DEPTH = (
-    "**The sign of d2 is turned.** d2 counts downwards, like the depth of the quill, while Z3 points upwards. The "
-    "slides print the table twice, once with each sign: only one of them goes with their matrices."
+    "**The sign of d2 is turned.** d2 counts downwards, like the depth of the quill, while Z3 points upwards. MECA 953 "
+    "prints the table twice, once with each sign: only one of them goes with their matrices."
 )
 
 _CLASSIC = product([classic_dh(*row[1:]) for row in ROWS])

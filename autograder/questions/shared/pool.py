@@ -8,12 +8,15 @@ its reference from ``arm_of(mine)``. Students see the axes of the arm in space, 
 from __future__ import annotations
 
 import json
+import random
 import tomllib
+from collections.abc import Sequence
 from functools import cache
 from importlib import resources
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import sympy
 
 import dhkit
@@ -23,6 +26,8 @@ from dhkit.variants import OwnNumbers
 from .described import Described, robot_of
 
 FILE = "arms.toml"
+MEASURED = 4
+"""Arms of so many joints have a log."""
 KIT_FILE = Path(dhkit.__file__).with_name("arms.json")
 
 
@@ -99,16 +104,54 @@ def _factors(entry: sympy.Expr) -> dict[str, float]:
     return found
 
 
+@cache
+def measured(name: str) -> dict[str, Any]:
+    """What a tracker saw of an arm as it was built: its lengths are not quite those of the pool.
+
+    ``q`` and ``asked`` in degrees and millimetres, ``points`` of the end effector in millimetres. The same for a name on
+    every machine.
+    """
+    arm, chance = arms()[name], random.Random(name)
+    table = arm.table.with_values(
+        {
+            letter: value + chance.choice((-1, 1)) * chance.uniform(0.012, 0.03)
+            for letter, value in _lengths(arm).items()
+        }
+    )
+    slides = [row.sigma for row in arm.table.rows if row.variable.free_symbols & set(arm.table.joints)]
+    drawn = [
+        [chance.randrange(40, 400, 5) if one else chance.randrange(-85, 90, 5) for one in slides] for _ in range(9)
+    ]
+    points = [
+        [round(1000 * float(value) + chance.gauss(0, 1.5), 1) for value in table.forward(in_si(arm, q))[:3, 3]]
+        for q in drawn
+    ]
+    return {"q": drawn[:-1], "points": points[:-1], "asked": drawn[-1]}
+
+
+def in_si(arm: Described, q: Sequence[float], degree: float = np.pi / 180) -> list[float]:
+    """Joint values in degrees and millimetres, in radians and metres; `degree` is what an angle of 1 counts."""
+    moving = [row for row in arm.table.rows if row.variable.free_symbols & set(arm.table.joints)]
+    return [value / 1000 if row.sigma else value * degree for row, value in zip(moving, q, strict=True)]
+
+
 def for_the_kit() -> str:
-    """What the kit's file says: of each arm its title, axes, and lengths to draw it with."""
-    lines = (f"{json.dumps(name)}: {json.dumps(shown(arm))}" for name, arm in arms().items())
+    """What the kit's file says: of each arm what is shown of it, and of those of four joints a log."""
+    lines = (
+        f"{json.dumps(name)}: "
+        + json.dumps(shown(arm) | ({"log": measured(name)} if len(arm.joints) == MEASURED else {}))
+        for name, arm in arms().items()
+    )
     return "{\n" + ",\n".join(lines) + "\n}\n"
 
 
 def shown(arm: Described) -> dict[str, Any]:
     """Of an arm its title, axes, and lengths to draw it with, as the kit's files have it."""
-    lengths = {name: float(value) for name, value in arm.table.values.items()}
-    return {"title": arm.title, **axes_in_space(arm.table), "lengths": lengths}
+    return {"title": arm.title, **axes_in_space(arm.table), "lengths": _lengths(arm)}
+
+
+def _lengths(arm: Described) -> dict[str, float]:
+    return {str(name): float(value) for name, value in arm.table.values.items()}
 
 
 if __name__ == "__main__":

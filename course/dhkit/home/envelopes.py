@@ -49,6 +49,8 @@ class SealedQuestion(msgspec.Struct, frozen=True, kw_only=True):
         The case each argument list belongs to, as `calls`.
     personal : bool
         Whether the answer depends on the student's own numbers.
+    shared : list of int
+        Where not all of these numbers count: for each set of numbers, the place in the lists that belongs to it.
     length : int
         Bytes of an envelope.
     envelopes : list of bytes
@@ -63,13 +65,14 @@ class SealedQuestion(msgspec.Struct, frozen=True, kw_only=True):
     calls: list[list[list]] = []
     cases: list[list[str]] = []
     personal: bool = False
+    shared: list[int] = []
     length: int = 0
     envelopes: list[bytes] = []
     texts: list[bytes] = []
 
-    def of_set(self, lists: list[T], number_set: int) -> T:
-        """The entry for one set of numbers of a list that has one for everybody, or one for each set."""
-        return lists[number_set if self.personal else 0]
+    def place(self, number_set: int) -> int:
+        """Where in the lists what belongs to a set of numbers is."""
+        return 0 if not self.personal else self.shared[number_set] if self.shared else number_set
 
 
 class SealedExercise(msgspec.Struct, frozen=True, kw_only=True):
@@ -119,10 +122,8 @@ class Opened:
     numbers: np.ndarray
 
 
-def lock_of(
-    sealed: SealedExercise, question: str, part: str, personal: bool, number_set: int, tolerance: float
-) -> Lock:
-    whose = number_set if personal else "all"
+def lock_of(sealed: SealedExercise, question: str, part: str, personal: bool, place: int, tolerance: float) -> Lock:
+    whose = place if personal else "all"
     return Lock(sealed.salt, f"{question}/{whose}/{part}", tolerance, sealed.cost)
 
 

@@ -67,7 +67,8 @@ def practice(id: str) -> Practice:
     if not here.personal:
         raise ValueError(f"{id} is the same for everybody; practise it as it stands")
     own = variants.number_set(question.exercise, variants.typed(question.exercise) or variants.NOBODY)
-    others = [which for which in range(len(here.envelopes)) if which != own]
+    sets = range(len(here.shared) or len(here.envelopes))
+    others = [which for which in sets if here.place(which) != here.place(own)]
     turn = _rounds.get(id, 0)
     _rounds[id] = turn + 1
     which = others[(own + 11 * turn) % len(others)]

@@ -108,7 +108,8 @@ def _of_function(
 ) -> Verdict:
     form = question.form
     assert isinstance(form, Function)
-    calls, cases = here.of_set(here.calls, number_set), here.of_set(here.cases, number_set)
+    place = here.place(number_set)
+    calls, cases = here.calls[place], here.cases[place]
     results, trouble = call(function, form.returns, calls)
     if all(is_blank(result) for result in results):
         return Verdict("blank")
@@ -173,11 +174,11 @@ def _opened(
     agrees: Callable[[np.ndarray], bool],
 ) -> Verdict:
     """The verdict in the envelope of the whole answer, or what the envelopes of its parts say."""
-    envelopes = here.of_set(here.envelopes, number_set)
+    place = here.place(number_set)
 
     def opened(part: str) -> Iterator[Opened]:
-        lock = lock_of(sealed, question.id, kind_of(part), here.personal, number_set, here.sight.tolerance)
-        return open_envelopes(here, envelopes, lock, parts[part])
+        lock = lock_of(sealed, question.id, kind_of(part), here.personal, place, here.sight.tolerance)
+        return open_envelopes(here, here.envelopes[place], lock, parts[part])
 
     near = False
     for one in opened("") if "" in parts else ():

@@ -39,23 +39,31 @@ def show_seen_from(transform, values: dict[str, float], names):
 
 
 @own_result
-def show_on_arm(pose, arm: Arm):
-    """Show the end effector of a transform, or of a forward model, over the drawing of the arm.
+def show_on_arm(pose, arm: Arm, q=None):
+    """Show the end effector of a transform, of a position, or of a forward model, over the drawing of the arm.
 
     Parameters
     ----------
-    pose : 4x4 matrix in the joint variables and lengths, or function of the joint values that returns one of numbers
+    pose : 4x4 matrix or [x, y, z] in the joint variables and lengths, or function of the joint values that returns numbers
     arm : Arm
+    q : sequence of float, optional
+        Joint values, in radians and metres; by default those of the drawing in the statement.
 
     Returns
     -------
     matplotlib Axes (3D)
-        Right where the frame E lies on the end effector as drawn.
+        Right where the frame E, or the cross of a position, lies on the end effector as drawn.
     """
-    drawn = {joint.name: EXTENDED if joint.slides else 0.0 for joint in arm.joints}
-    found = called(pose, *drawn.values()) if callable(pose) else pose
-    frame = numbers(found, "pose", (4, 4), {**arm.lengths, **drawn})
-    ax = draw_arm(arm)
+    at = [EXTENDED if joint.slides else 0.0 for joint in arm.joints] if q is None else [float(value) for value in q]
+    values = {**arm.lengths, **dict(zip((joint.name for joint in arm.joints), at, strict=True))}
+    found = called(pose, *at) if callable(pose) else pose
+    if len(entries(found)) == 3:
+        point = numbers(found, "point", (3,), values)
+        ax = draw_arm(arm, at, end_effector=False)
+        ax.plot(*point[:, None], "x", ms=13, mew=2.5, color=INK, zorder=10)
+        return ax
+    frame = numbers(found, "pose", (4, 4), values)
+    ax = draw_arm(arm, at, end_effector=q is None)
     corners = np.array([ax.get_xlim(), ax.get_ylim(), ax.get_zlim()]).T
     size = 0.32 * np.ptp(corners, axis=0).max()  # longer than the axes of the drawing: the names do not meet
     mark_frame(ax, frame, "E", size)
