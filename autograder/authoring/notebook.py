@@ -19,7 +19,7 @@ from autograder.questions.shared.singular import configurations, determinant, se
 from autograder.questions.shared.sweep import sweep_of
 from autograder.questions.shared.tables import list_rows
 from dhkit.arms import arm_from, said_direction, said_point
-from dhm.paul import derivation
+from dhm import derivation
 
 POINTS = {
     asked.TABLE: 5,

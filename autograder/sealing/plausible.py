@@ -9,7 +9,7 @@ table, where each cell has to be chosen.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import log2
+from math import inf, log2
 
 import numpy as np
 
@@ -29,11 +29,13 @@ ROUND = 4.0  # bits of a number that is a multiple of a tenth, or of fifteen deg
 _RANGE = 2.0  # metres, or units, in which a number is expected
 SECONDS_A_KEY = 0.02  # on a laptop of 2026
 _SECONDS_A_YEAR = 365 * 86400
+_MOST_BITS = 1000.0  # a matrix of a seven-axis arm has more
 
 
 def years(bits: float, seconds_a_key: float) -> float:
-    """Time until half of the plausible answers have been tried on one core."""
-    return 2 ** (bits - 1) * seconds_a_key / _SECONDS_A_YEAR
+    """Time until half of the plausible answers have been tried on one core; infinite where it cannot be counted."""
+    trials = 2.0 ** (bits - 1) if bits < _MOST_BITS else inf
+    return trials * seconds_a_key / _SECONDS_A_YEAR
 
 
 def bits_of_parts(form: Form, node: object, sight: Sight, parts: Parts) -> dict[str, float]:

@@ -19,7 +19,7 @@ from autograder.authoring.public_half import public_half
 from autograder.judge import Family
 from autograder.questions.shared import singular, sweep
 from autograder.questions.shared.arm import ask_about
-from autograder.questions.shared.configurations import all_solutions, configuration, residual
+from autograder.questions.shared.configurations import all_solutions, configuration, residual, standing
 from autograder.questions.shared.described import describe
 from autograder.reference import table_from_urdf_file
 from dhkit import public
@@ -49,6 +49,7 @@ def test_right_answers_are_right_and_mistakes_are_named(robot, monkeypatch):
     found, expected = all_solutions(arm), SOLUTIONS[robot.stem]
     assert isinstance(found, Family) if expected is Family else len(found) == expected
     assert set(singular.ranks(arm)) == FREEDOMS[robot.stem]
+    assert residual(arm, np.array([standing(arm)])) > 0.01, "a statement tells no solution"
     assert ("determinant" in kinds) == (robot.stem in ("arm_3r", "scara_t6"))
     for question in questions:
         assert verdict(question, given(question)).note == "right", question.id

@@ -13,6 +13,7 @@ from autograder.judge.tree import IMPOSSIBLE
 from autograder.questions import exercises
 from autograder.sealing import seal_exercise
 from autograder.sealing.likely import named
+from autograder.sealing.plausible import years
 from autograder.sealing.seal import sealables
 from dhkit import variants, wire
 from dhkit.forms.base import Symbolic, squeezed
@@ -302,3 +303,8 @@ def test_what_cannot_be_read_is_decided_by_the_grader(tmp_path, monkeypatch):
     assert verdict(question.id, answer, "ada").state == "undecided"
     (tmp_path / f"scara{SUFFIX}").write_bytes(b"nonsense")
     assert verdict(question.id, answer, "ada").state == "undecided"
+
+
+def test_years_of_an_answer_beyond_all_counting():
+    assert years(31.0, 365 * 86400) == 2.0**30
+    assert years(5000.0, 0.02) == float("inf")

@@ -44,15 +44,24 @@ def configuration(arm: Described) -> tuple[float, ...]:
     """The joint values whose pose is asked back: those of the file, or else some in general position."""
     if arm.posture:
         return arm.posture
-    rng = np.random.default_rng(0)
-    drawn = _drawn(arm, rng, _TRIES)
-    values = np.linalg.svd(jacobian(arm.table, drawn)[:, : task_rows(arm)], compute_uv=False)
-    full = int(_ranks(jacobian(arm.table, drawn)[:, : task_rows(arm)]).max())
-    good = drawn[values[:, full - 1] > _WELL_AWAY * values[:, 0]]
-    for q in good if len(good) else drawn:
-        if not robot_of(arm).has_inverse or len(robot_of(arm).inverse(arm.table.forward(q))):
-            return tuple(q.tolist())
-    return tuple(drawn[0].tolist())
+    drawn = _in_general_position(arm, 0)
+    reached = (q for q in drawn if not robot_of(arm).has_inverse or len(robot_of(arm).inverse(arm.table.forward(q))))
+    return tuple(next(reached, drawn[0]).tolist())
+
+
+@cache
+def standing(arm: Described) -> tuple[float, ...]:
+    """Other joint values in general position: statements tell them, so they must not be those whose pose is asked back."""
+    return tuple(_in_general_position(arm, 1)[0].tolist())
+
+
+def _in_general_position(arm: Described, seed: int) -> np.ndarray:
+    """Joint values (k, n), k at least 1, far from what is singular where the arm has such."""
+    drawn = _drawn(arm, np.random.default_rng(seed), _TRIES)
+    J = jacobian(arm.table, drawn)[:, : task_rows(arm)]
+    values = np.linalg.svd(J, compute_uv=False)
+    good = drawn[values[:, int(_ranks(J).max()) - 1] > _WELL_AWAY * values[:, 0]]
+    return good if len(good) else drawn
 
 
 def _drawn(arm: Described, rng: np.random.Generator, count: int) -> np.ndarray:

@@ -10,7 +10,7 @@ import sympy
 
 from autograder.reference import jacobian, rank
 
-from .configurations import configuration, task_rows, turning
+from .configurations import standing, task_rows, turning
 from .described import Described
 
 _QUARTERS = (0, 2, 1, -1)
@@ -20,7 +20,7 @@ _MOST_TERMS = 60
 @cache
 def configurations(arm: Described) -> tuple[tuple[sympy.Expr, ...], ...]:
     """Four configurations of which some are singular, where the arm has such: joint values, quarter turns exact."""
-    plain = tuple(sympy.Rational(str(value)) for value in configuration(arm))
+    plain = tuple(sympy.Rational(str(value)) for value in standing(arm))
     singular, regular = _with_quarter_turns(arm, plain)
     chosen = [
         *singular[:2],
@@ -82,7 +82,7 @@ def ranks(arm: Described, rows: str = "own") -> list[int]:
 @cache
 def senses(arm: Described) -> tuple[int, ...] | None:
     """Of an arm whose turning joints all turn about Z0: 1 or -1 for each, 0 for slides; None of any other arm."""
-    found = jacobian(arm.table, configuration(arm))[3:]
+    found = jacobian(arm.table, standing(arm))[3:]
     if np.abs(found[:2]).max() > 1e-9 or len(arm.joints) != 4:
         return None
     return tuple(int(value) for value in found[2].round())

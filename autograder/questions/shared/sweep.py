@@ -10,13 +10,13 @@ import numpy as np
 
 from autograder.reference import jacobian
 
-from .configurations import configuration, turning
+from .configurations import standing, turning
 from .described import Described
 
 COUNT = 60
 """Values of each joint in the reference cloud."""
 
-# Widths below and above the configuration, in radians; the first that stay clear of the axis Z0 are taken.
+# Widths below and above where the arm stands, in radians; the first that stay clear of the axis Z0 are taken.
 _WIDTHS = ((1.0, 1.4), (1.4, 0.6), (0.6, 1.0), (0.3, 0.7), (0.8, 0.2), (0.2, 0.8), (0.2, 0.4))
 _SLIDES = (0.1, 0.3)
 _NO_AREA = 1e-4  # square metres
@@ -52,7 +52,7 @@ class Sweep:
 def sweep_of(arm: Described) -> Sweep | None:
     """The two joints that sweep the largest surface, joint 1 left out where it only turns the picture; None of fewer joints."""
     places = range(1 if len(arm.joints) > 2 and 0 in turning(arm) else 0, len(arm.joints))
-    held = configuration(arm)
+    held = standing(arm)
     largest = []
     for widths in _WIDTHS:
         ranges = {i: _range(arm, held, i, widths) for i in places}
