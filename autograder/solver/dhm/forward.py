@@ -172,18 +172,28 @@ class Chain:
         plain = np.array_equal(self.coupling, np.eye(*self.coupling.shape))
         for start in range(0, len(columns), _BLOCK):
             block = slice(start, start + _BLOCK)
-            of_rows = self._jacobian_of_rows(columns[block])
+            of_rows, _ = self._jacobian_of_rows(columns[block])
             if plain:
                 found[block] = np.moveaxis(of_rows[:, : self.joints], 2, 0)
             else:
                 found[block] = np.moveaxis(of_rows, 2, 0) @ self.coupling
         return found.reshape(*q.shape[:-1], 6, self.joints)
 
-    def _jacobian_of_rows(self, q: np.ndarray) -> np.ndarray:
-        """The Jacobian with respect to the variable of each row, (6, rows, N)."""
+    def poses_and_jacobians(self, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """`forward` and `jacobian` of few postures (N, n) in one go."""
+        of_rows, vectors = self._jacobian_of_rows(q)
+        poses = np.zeros((len(q), 4, 4))
+        poses[:, 3, 3] = 1.0
+        for j, column in enumerate(vectors):
+            poses[:, :3, j] = column.T
+        return poses, np.moveaxis(of_rows, 2, 0) @ self.coupling
+
+    def _jacobian_of_rows(self, q: np.ndarray) -> tuple[np.ndarray, Vectors]:
+        """The Jacobian with respect to the variable of each row, (6, rows, N), and the tool's frame."""
         axes: list[tuple[np.ndarray, np.ndarray]] = []
         *_, (x, y, z, p) = self._walk(q, axes=axes)
-        end = self._with_tool(x, y, z, p)[3]
+        tool = self._with_tool(x, y, z, p)
+        end = tool[3]
         columns = np.empty((6, len(axes), len(q)))
         product = np.empty(len(q))
         for i, (axis, point) in enumerate(axes):
@@ -200,7 +210,7 @@ class Chain:
                 np.multiply(axis[k], arm[m], out=speed[j])
                 np.multiply(axis[m], arm[k], out=product)
                 speed[j] -= product
-        return columns
+        return columns, tool
 
     def _checked(self, q: ArrayLike) -> np.ndarray:
         q = np.asarray(q, dtype=float)

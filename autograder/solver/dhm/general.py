@@ -140,8 +140,9 @@ class GeneralArm(LoopArm):
         """The postures among candidates, in the order of their first joint."""
         found, _ = self._settled(candidates, poses, tol)
         branch, pose = np.nonzero(found.valid & ((found.flags & Flag.LIMIT) != 0))
-        loose = Task(self.chain, self.size, 6).loose(found.q[:, branch, pose].T, poses[pose])
-        found.flags[branch[loose], pose[loose]] = Flag.FREE_CHAIN
+        if len(pose):
+            loose = Task(self.chain, self.size, 6).loose(found.q[:, branch, pose].T, poses[pose])
+            found.flags[branch[loose], pose[loose]] = Flag.FREE_CHAIN
         first = np.argsort(~found.valid, axis=0, kind="stable")[: self.branch_count]
         angle = np.where(found.valid, wrap(found.q[0]), np.inf)
         order = np.take_along_axis(

@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from .forward import Chain
-from .geometry import cross, wrap
+from .geometry import cross
 from .inverse import Branches
 from .status import Failure, Flag
 
@@ -51,9 +51,9 @@ def settled(
     reached = (error <= tol).reshape(branches, count)
     hopeless = np.tile(~reached.any(axis=0), branches)
     again = hopeless & np.isfinite(flat).all(axis=1)
-    # From a singular posture a step leads nowhere: from beside it.
-    flat[again] += _BESIDE * task.unit * np.cos(np.arange(n))
-    flat[again], error[again] = task.approached(flat[again], target[again])
+    if again.any():  # from a singular posture a step leads nowhere: from beside it
+        flat[again] += _BESIDE * task.unit * np.cos(np.arange(n))
+        flat[again], error[again] = task.approached(flat[again], target[again])
     best = error.reshape(branches, count)
     reached = best <= tol
     q = flat.T.reshape(n, branches, count)
@@ -88,8 +88,11 @@ class Task:
 
     def jacobian(self, q: np.ndarray) -> np.ndarray:
         """In sizes of the arm, (R, freedoms, n), for q (R, n)."""
+        return self._in_sizes(self.chain.jacobian(q))
+
+    def _in_sizes(self, J: np.ndarray) -> np.ndarray:
         lengths = np.array([1 / self.size] * 3 + [1.0] * 3)[:, None]
-        return (lengths * self.chain.jacobian(q) * self.unit)[:, : self.freedoms]
+        return (lengths * J * self.unit)[:, : self.freedoms]
 
     def approached(self, q: np.ndarray, T: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Joint values (R, n) brought as near to poses (R, 4, 4) as Newton's method does, and the errors (R,) left.
@@ -97,34 +100,34 @@ class Task:
         An error is the largest entry by which a pose differs, in metres; rotations count times the size of the arm.
         """
         q = q.copy()
-        twist = self.twist(q, T)
+        twist, slopes = self.twist(q, T)
         going = np.arange(len(q))
         for _ in range(_STEPS):
-            going = going[(twist[going] ** 2).sum(1) > _EXACT**2]
+            inexact = (twist[going] ** 2).sum(1) > _EXACT**2
+            going, J = going[inexact], slopes[inexact]
             if not len(going):
                 break
             square = (twist[going] ** 2).sum(1)
-            J = self.jacobian(q[going])
             damping = 1e-3 * np.minimum(square, 1e-2) + 1e-14
             normal = J.swapaxes(1, 2) @ J + damping[:, None, None] * np.eye(self.chain.joints)
             step = np.linalg.solve(normal, J.swapaxes(1, 2) @ twist[going, :, None])[..., 0]
             tried = q[going] + self.unit * step
-            left = self.twist(tried, T[going])
+            left, slopes = self.twist(tried, T[going])
             better = (left**2).sum(1) < square
-            going = going[better]
+            going, slopes = going[better], slopes[better]
             q[going], twist[going] = tried[better], left[better]
         return q, self.size * np.abs(twist).max(axis=1, initial=0.0)
 
-    def twist(self, q: np.ndarray, T: np.ndarray) -> np.ndarray:
-        """What is missing to poses T: a shift, in sizes of the arm, and a turn, as vectors, (R, freedoms)."""
-        found = self.chain.forward(q)
-        shift = (T[:, :3, 3] - found[:, :3, 3]) / self.size
+    def twist(self, q: np.ndarray, T: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """What is missing to poses T: a shift, in sizes of the arm, and a turn, as vectors, (R, freedoms); the Jacobians."""
+        found, J = self.chain.poses_and_jacobians(q)
+        shift, slopes = (T[:, :3, 3] - found[:, :3, 3]) / self.size, self._in_sizes(J)
         if self.freedoms == 3:
-            return shift
+            return shift, slopes
         R, goal = found[:, :3, :3], T[:, :3, :3]
         axis = cross(R.swapaxes(1, 2), goal.swapaxes(1, 2)).sum(axis=1) / 2
         over = ((R * goal).sum(axis=(1, 2)) < 1)[:, None]  # beyond a quarter turn the sine says too little
-        return np.concatenate([shift, np.where(over, axis + np.sign(axis + 1e-300), axis)], axis=1)
+        return np.concatenate([shift, np.where(over, axis + np.sign(axis + 1e-300), axis)], axis=1), slopes
 
     def told_by_rank(self, q: np.ndarray, reached: np.ndarray, flags: np.ndarray) -> np.ndarray:
         """Flags (K, N): no family where the Jacobian has its rank; where not and none is free, STRETCHED: branches merge."""
@@ -147,13 +150,15 @@ class Task:
 
     def repeated(self, q: np.ndarray, reached: np.ndarray, flags: np.ndarray) -> np.ndarray:
         """Whether an earlier branch is the same posture, (K, N)."""
-        revolute = ~self.chain.prismatic[: self.chain.joints]
         repeated = np.zeros_like(reached)
-        for later in range(1, len(reached)):
-            for earlier in range(later):
-                gap = q[:, later] - q[:, earlier]
-                gap[revolute] = wrap(gap[revolute])
-                special = (flags[later] | flags[earlier]) & (Flag.FREE | Flag.LIMIT)
-                same = np.abs(gap / self.unit[:, None]).max(axis=0) <= np.where(special, _BLURRED, _SAME)
-                repeated[later] |= same & reached[later] & reached[earlier]
+        special = (flags & (Flag.FREE | Flag.LIMIT)) != 0
+        apart = q / self.unit[:, None, None]
+        turns = ~self.chain.prismatic[: self.chain.joints]
+        some = np.flatnonzero(reached.any(axis=1))
+        for place, later in enumerate(some[1:], start=1):
+            earlier = some[:place]
+            gap = np.abs(apart[:, [later]] - apart[:, earlier])
+            gap[turns] = np.minimum(gap[turns] % (2 * np.pi), -gap[turns] % (2 * np.pi))
+            least = np.where(special[later] | special[earlier], _BLURRED, _SAME)
+            repeated[later] = ((gap.max(axis=0) <= least) & reached[later] & reached[earlier]).any(axis=0)
         return repeated

@@ -26,6 +26,9 @@ _TO_HARMONICS = np.linalg.inv(np.stack([np.ones(3), np.cos(_SAMPLES), np.sin(_SA
 _HALF_ANGLE = np.array(
     [[1.0, 1, 0], [0, 0, 2], [1, -1, 0]]
 )  # 1, cos, sin times 1 + t^2 in powers of t = tan(angle / 2)
+_HARMONICS_OF_TWO = np.kron(_TO_HARMONICS, _TO_HARMONICS)
+_HARMONICS_OF_THREE = np.kron(_HARMONICS_OF_TWO, _TO_HARMONICS)
+_HALF_ANGLES_OF_THREE = np.kron(np.kron(_HALF_ANGLE, _HALF_ANGLE), _HALF_ANGLE)
 _ASIDE = np.array([0.4, 1.1, 2.3])  # radians at which c, d and e count from, so that no round angle is half a turn
 _RANK = 1e-10  # singular value, per largest, under which a term is none
 _NOISE = 1e-13 * np.random.default_rng(0).normal(size=(12, 12))  # so that no matrix is quite singular
@@ -57,12 +60,12 @@ def candidates(links: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     right = _products(
         np.linalg.inv(B1) @ back[None, :, None] @ np.linalg.inv(B0) @ back[:, None, None] @ np.linalg.inv(B5)
     )
-    left = np.einsum("ia,jb,kc,abcnp->npijk", _TO_HARMONICS, _TO_HARMONICS, _TO_HARMONICS, left)
-    right = np.einsum("ia,jb,abnp->npij", _TO_HARMONICS, _TO_HARMONICS, right).reshape(-1, 14, 9)
-    left = np.broadcast_to(left, (count, *left.shape[1:])).copy()
-    left[:, :, 0, 0, 0] -= right[:, :, 0]
-    free = _six_free_of(right[:, :, 1:], left.reshape(count, 14, 27))
-    six = np.einsum("npe,npijk,ai,bj,ck->neabc", free, left, _HALF_ANGLE, _HALF_ANGLE, _HALF_ANGLE, optimize=True)
+    left = left.reshape(27, -1, 14).transpose(1, 2, 0) @ _HARMONICS_OF_THREE.T
+    right = right.reshape(9, -1, 14).transpose(1, 2, 0) @ _HARMONICS_OF_TWO.T
+    left = np.broadcast_to(left, (count, 14, 27)).copy()
+    left[:, :, 0] -= right[:, :, 0]
+    free = _six_free_of(right[:, :, 1:], left)
+    six = (free.swapaxes(1, 2) @ left @ _HALF_ANGLES_OF_THREE.T).reshape(count, 6, 3, 3, 3)
     rows = np.zeros((3, count, 12, 4, 3))
     for power in range(3):
         rows[power, :, :6, :3] = rows[power, :, 6:, 1:] = six[:, :, power]
