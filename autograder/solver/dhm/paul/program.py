@@ -17,7 +17,6 @@ from math import atan2, cos, hypot, pi, remainder, sin, sqrt
 import numpy as np
 
 NOTHING = 1e-9  # under which a number counts as zero
-{letters}
 BASE = np.array({base})
 TOOL = np.array({tool})
 # sigma, a, alpha, d, theta of each row; of d and theta, the one that moves is what is added to sign * q
@@ -86,8 +85,8 @@ _TAIL = '''    return distinct(found)
 
 
 def reaches(q, T):
-    """Whether the direct model confirms a posture."""
-    return abs(direct(q) - T){part}.max() <= 1e-6 * max(1.0, abs(T).max())
+    """Whether the direct model confirms a posture; poses may be rounded to six decimals."""
+    return abs(direct(q) - T){part}.max() <= 1e-5 * max(1.0, abs(T).max())
 
 
 def distinct(found):
@@ -105,6 +104,9 @@ def distinct(found):
 class _Printer(PythonCodePrinter):
     def __init__(self) -> None:
         super().__init__({"fully_qualified_modules": False})
+
+    def _print_Float(self, number: sp.Float) -> str:
+        return repr(float(number))
 
     def _print_Rational(self, number: sp.Rational) -> str:
         return f"{number.p} / {number.q}"
@@ -124,15 +126,18 @@ def written(setting: Setting, steps: Sequence[Step]) -> str:
     if without:
         raise ValueError(f"give numbers for {', '.join(without)} first: table.with_values({{...}})")
     code = _Printer().doprint
+
+    def number(entry: sp.Expr) -> str:
+        return code(entry.xreplace(setting.values)) if entry.free_symbols else code(entry)
+
     rows = []
     for row, (_, _, offset) in zip(setting.rows, setting.joints):
         entries = [row.a, row.alpha, *((offset, row.theta) if row.sigma else (row.d, offset))]
-        rows.append(f"    ({row.sigma}, {', '.join(map(code, entries))}),")
+        rows.append(f"    ({row.sigma}, {', '.join(number(entry) for entry in entries)}),")
     head = _HEAD.format(
         name=setting.name or "a robot",
-        letters="\n".join(f"{symbol} = {setting.values[symbol]!r}" for symbol in sorted(letters, key=str)),
-        base=_array(setting.base, code),
-        tool=_array(setting.tool, code),
+        base=_array(setting.base, number),
+        tool=_array(setting.tool, number),
         rows="\n".join(rows),
         signs=[sign for _, sign, _ in setting.joints],
     )
@@ -152,9 +157,16 @@ def _search(setting: Setting, steps: Sequence[Step], code: Code) -> Iterator[str
         yield "    " + ", ".join(f"({', '.join(map(str, U0[i, :]))})" for i in range(3)) + ", _ = U0.tolist()"
     else:
         yield f"    {', '.join(map(str, U0[:3, 3]))} = (np.linalg.inv(BASE) @ T)[:3, 3].tolist()"
+    used = set().union(*(part.free_symbols for step in steps for each in step.solved for part in each.coefficients))
+    used |= set().union(*(offset.free_symbols for _, _, offset in setting.joints))
+    yield from (
+        f"    {letter} = {setting.values[letter]!r}" for letter in sorted(used & setting.values.keys(), key=str)
+    )
     yield "    found = []"
     depth = 1
-    for step in steps:
+    for place, step in enumerate(steps, start=1):
+        said = " and ".join(f"{code(each.left)} = {code(each.right)}" for each in step.equations)
+        yield "    " * depth + f"# step {place}, type {step.kind}: {said}"
         for each in step.solved:
             yield from _line(each, depth, code)
             depth += each.helper != "sum"
