@@ -15,7 +15,7 @@ from dhkit.scene import Scene
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parent / "tests/dhkit"))
 
-from test_scene_in_browser import Tab  # noqa: E402
+from test_scene_in_browser import GRIP, Tab  # noqa: E402
 
 WIDTH, HEIGHT = 760, 470
 RX90 = robots.RX90
@@ -37,22 +37,10 @@ ACCENTS = (
 )
 
 
-def circle(count=72):
-    """Joint values that lead the hand round a circle, its orientation kept."""
-    pose, q, path = RX90.forward(REACH), REACH, []
-    for angle in np.linspace(0, 2 * np.pi, count):
-        aim = pose.copy()
-        aim[:3, 3] += 0.2 * np.array([0.3 * np.sin(angle), np.sin(angle), np.cos(angle) - 1])
-        q = RX90.nearest(aim, q).q
-        path.append(q)
-    return path
-
-
 def open_tab(scene, folder):
     scene.save(folder / "arm.html")
     tab = Tab(folder / "profile", WIDTH, HEIGHT)
-    tab.tell("Page.navigate", url=(folder / "arm.html").as_uri())
-    tab.until("!!root?.querySelector('.label')")
+    tab.open(folder / "arm.html")
     tab.ask(f"root.querySelector('.frame').style.height = '{HEIGHT - 26}px'")
     return tab
 
@@ -63,31 +51,41 @@ def frame(tab):
     return Image.open(BytesIO(base64.b64decode(data))).convert("RGB")
 
 
-def seek(tab, share):
-    tab.ask(
-        "(() => { const time = root.querySelector('[aria-label=path] input');"
-        f" time.value = {share}; time.dispatchEvent(new Event('input')); }})()"
-    )
-
-
-def turn(tab, key):
-    tab.ask(f"root.querySelector('canvas').dispatchEvent(new KeyboardEvent('keydown', {{ key: '{key}' }}))")
+def follow(tab, places):
+    """Drag the hand through places in the picture, in pixels from where it is; a frame at each."""
+    x, y = tab.ask(GRIP)
+    mouse = {"x": x, "y": y, "button": "left", "clickCount": 1}
+    tab.tell("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
+    tab.tell("Input.dispatchMouseEvent", **mouse, type="mousePressed")
+    for dx, dy in places:
+        tab.tell("Input.dispatchMouseEvent", **mouse | {"x": x + dx, "y": y + dy}, type="mouseMoved", buttons=1)
+        yield frame(tab)
+    tab.tell("Input.dispatchMouseEvent", **mouse | {"x": x + dx, "y": y + dy}, type="mouseReleased")
 
 
 def film():
-    """The hand on its circle while the view turns, then all postures of the last pose."""
-    scene = Scene(ROWS, RX90.table.values, title="RX-90")
-    postures = RX90.inverse(RX90.forward(REACH)).q
-    tour = [(1 - s) * postures[i] + s * postures[j] for i, j in ((0, 2), (2, 6)) for s in np.linspace(0, 1, 10)]
-    for path, ghosts, steps, turning in ((circle(), [], 30, True), (tour, postures, 20, False)):
-        with tempfile.TemporaryDirectory() as folder:
-            tab = open_tab(scene.ghosts(ghosts).play(path), Path(folder))
-            for k in range(steps):
-                seek(tab, round(k / (steps - 1), 2))
-                if turning and k % 3 == 0:
-                    turn(tab, "ArrowLeft")
+    """The hand of the RX-90 is dragged round, and all postures follow; another one is chosen; the wrist is straightened."""
+    scene = Scene(ROWS, RX90.table.values, q=REACH, title="RX-90", trace=True)
+    around = np.linspace(0, 2 * np.pi, 26)
+    with tempfile.TemporaryDirectory() as folder:
+        tab = open_tab(scene.ghosts(RX90.inverse(RX90.forward(REACH)).q), Path(folder))
+        yield from follow(tab, np.column_stack([90 * np.sin(around), 55 * (1 - np.cos(around))]))
+        for posture in (3, 7):
+            tab.ask(f"root.querySelectorAll('[aria-label=postures] button')[{posture - 1}].click()")
+            for _ in range(5):
                 yield frame(tab)
-            tab.close()
+        tab.ask("[...root.querySelectorAll('button')].find((one) => one.textContent === 'speeds').click()")
+        for angle in (*range(-60, 0, 10), 0, 0, 0, 0):
+            slide(tab, 4, angle)
+            yield frame(tab)
+        tab.close()
+
+
+def slide(tab, joint, degrees):
+    tab.ask(
+        f"(() => {{ const slider = root.querySelectorAll('.joint input')[{joint}];"
+        f" slider.value = {degrees}; slider.dispatchEvent(new Event('input')); }})()"
+    )
 
 
 def save(frames):

@@ -15,7 +15,7 @@ export function make(tag, properties = {}, ...children) {
 
 export const inDegrees = (angle) => {
   const value = (angle * 180) / Math.PI;
-  const text = Math.abs(value - Math.round(value)) < 1e-6 ? String(Math.round(value) || 0) : value.toFixed(1);
+  const text = Math.abs(value) < 0.05 ? "0" : value.toFixed(Math.abs(value - Math.round(value)) < 1e-6 ? 0 : 1);
   return `${text.replace("-", "\u2212")}°`;
 };
 export const inMetres = (length) => `${metres(length)} m`;

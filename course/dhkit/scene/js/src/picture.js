@@ -139,12 +139,12 @@ export class Picture {
     return Picture.prototype.body.call(moving, frames, { link: colour, joint: colour, hand: colour });
   }
 
-  /** The elbow of a posture: the frame's origin that is farthest from the line between base and hand. */
+  /** The elbow of a posture: the frame's origin that is farthest from the line between base and hand, or the middle one. */
   elbow(frames) {
     const origins = frames.map((frame) => column(frame, 3)), hand = origins.at(-1);
     const far = norm(hand);
     const away = (point) => (far > 1e-6 * this.unit ? norm(cross(point, hand)) / far : norm(point));
-    return origins.reduce((best, point) => (away(point) > away(best) + 1e-6 ? point : best));
+    return origins.reduce((best, point) => (away(point) > away(best) + 1e-3 * this.unit ? point : best), origins[origins.length >> 1]);
   }
 
   /** Axes of the frames with the given numbers; those that lie on one another once, with all their names. */
