@@ -54,18 +54,19 @@ lab: setup
 
 # The site, in build/site. Notebooks run again where a cell of theirs has changed, all of them where what they import has.
 site: setup build/imported
-	$(BIN)/sphinx-build --quiet --fail-on-warning --jobs auto -c docs -d build/doctrees . build/site
+	@$(BIN)/sphinx-build --quiet --fail-on-warning --jobs auto -c docs -d build/doctrees . build/site 2> build/site.log || { cat build/site.log; exit 1; }
 	$(BIN)/python docs/check_links.py build/site
 	@echo "the site is in build/site/index.html"
 
 build/imported: $(shell find course/dhkit autograder -name '*.py' -o -name '*.toml' -o -name 'scene.js')
 	@rm -rf build/executed build/doctrees && mkdir -p build && touch $@
 
-# Measurements against peers, as ratios within one run.
+# Measurements against peers, as ratios within one run; the site shows what was kept in docs/figures.
+bench: SHELL := bash -o pipefail
 bench: setup .venv-bench/installed
-	$(BIN)/python tests/benchmarks/verdicts.py
-	$(BIN)/python tests/benchmarks/run.py
-	$(BIN)/python tests/benchmarks/grading.py
+	$(BIN)/python tests/benchmarks/verdicts.py | tee docs/figures/verdicts.txt
+	$(BIN)/python tests/benchmarks/run.py | tee docs/figures/solver.txt
+	$(BIN)/python tests/benchmarks/grading.py | tee docs/figures/grading.txt
 
 # Sandboxed kernels cannot keep what they compile: they find it compiled.
 setup: .venv/installed bubblewrap
