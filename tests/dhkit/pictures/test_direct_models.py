@@ -93,7 +93,7 @@ def test_the_pen_is_drawn_where_its_tip_is():
     assert any(np.allclose(end, tip) for end in ends)
 
 
-@pytest.mark.parametrize(("name", "letter"), zip(ARMS, "ABCDABCDA"))
+@pytest.mark.parametrize(("name", "letter"), list(zip(ARMS, "ABCDABCDA")))
 def test_a_robot_is_drawn_from_frame_2_in_any_reading(name, letter):
     drawn = pictures.show_from_frame_2(np.eye(4), letter, *own(name), WORK)
     assert not drawn.texts[0].get_text().startswith("cannot be drawn")
