@@ -1,4 +1,4 @@
-"""Inverse models (MECA 953, EPFL and DH-m slides): elbow arm, PUMA-like shoulder, KR210, RX-90, counts, free directions."""
+"""Inverse models: an arm of the student's own; of the documents a PUMA-like shoulder, a determinant, the RX-90, counts."""
 
 from __future__ import annotations
 
@@ -14,8 +14,9 @@ from autograder.judge.misconceptions import (
     misprint,
     tolerance_too_wide,
 )
-from autograder.judge.steps import change_entry, in_each_row, negate, replace_entry
+from autograder.judge.steps import change_entry, negate, replace_entry
 
+from . import own
 from .model import (
     ABSOLUTE_DETERMINANT,
     DETERMINANT,
@@ -26,20 +27,15 @@ from .model import (
     A,
     Wx,
     Wy,
-    align,
-    aligned_residual,
+    change_count,
     change_counts,
     count_six_cases,
     d2,
     draw_poses,
     draw_posture,
-    elbow_residual,
     first_half,
     keep_elbow,
     keep_wrist,
-    kr210_residual,
-    list_elbow_postures,
-    list_kr210_postures,
     list_rx90_postures,
     name_case,
     one_elbow,
@@ -59,22 +55,51 @@ ELBOW_MISSING = (
 
 QUESTIONS = (
     Question(
-        "inverse_models.elbow",
-        reference=list_elbow_postures,
+        "inverse_models.own_point",
+        reference=own.list_configurations,
         mistakes=(
             mistake("over_the_back_missing", 0.5, BACK_MISSING, first_half, second_half),
             mistake("one_elbow_missing", 0.5, ELBOW_MISSING, *one_elbow((0, 2), (1, 3), (0, 3), (1, 2))),
             mistake(
                 "joint_1_turned_only",
                 0.5,
-                "**Over the back only t1 was changed.** In the turned plane the target lies behind the arm: A changes its sign, and t2 "
-                "and t3 follow. Put your third solution into the direct model.",
+                "**Over the back only q1 was changed.** In the turned plane the target lies behind the arm: how far ahead it is changes its "
+                "sign, and q2 and q3 follow. Put your third solution into the direct model.",
                 turn_joint_1_only,
             ),
             degrees(0, 1, 2),
         ),
         angles=(0, 1, 2),
-        residual=elbow_residual,
+        residual=own.residual,
+    ),
+    Question(
+        "inverse_models.own_counts",
+        reference=own.counts,
+        mistakes=(
+            mistake(
+                "wrist_not_counted",
+                0.6,
+                "**Case d: these are the configurations of the first three joints alone.** The wrist has two for each of them.",
+                change_count(3, lambda n: n // 2),
+            ),
+            mistake(
+                "reach_not_tested",
+                0.6,
+                "**Case b: is the point within reach at all, in front and over the back?** Compare its distance from axis 2, on either "
+                "side, with upper arm and forearm.",
+                change_count(1, lambda n: 4),
+                change_count(1, lambda n: 2 - n),
+            ),
+            mistake(
+                "near_axis_1",
+                0.6,
+                "**Case c: the point is close to axis 1.** How near can the wrist centre come: does the arm swing in a plane through axis 1, "
+                "or in one beside it?",
+                change_count(2, lambda n: 4 - n),
+                change_count(2, lambda n: 2),
+            ),
+        ),
+        partial=0.6,
     ),
     Question(
         "inverse_models.counts",
@@ -182,42 +207,6 @@ QUESTIONS = (
         draw=draw_posture,
     ),
     Question(
-        "inverse_models.kr210",
-        reference=list_kr210_postures,
-        mistakes=(
-            mistake("over_the_back_missing", 0.5, BACK_MISSING, first_half, second_half),
-            mistake("one_elbow_missing", 0.5, ELBOW_MISSING, *one_elbow((0, 2), (1, 3), (0, 3), (1, 2))),
-            mistake(
-                "offset_at_the_back",
-                0.6,
-                "**In front your postures are right, over the back they miss.** Joint 1 carries axis 2 round with it: there it stands on the far "
-                "side of axis 1. Is the wrist centre nearer to it then, or further away?",
-                wrong={"back": "mirrored"},
-            ),
-            mistake(
-                "shoulder_offset_forgotten",
-                0.4,
-                "**The 0.35 m between axes 1 and 2 are missing.** See row 2 of the table: the arm does not begin on axis 1.",
-                wrong={"shoulder": "no offset"},
-            ),
-            mistake(
-                "forearm_offset_forgotten",
-                0.5,
-                "**The forearm is taken for straight.** Row 4 carries a3 = -0.054 beside d4 = 1.5: axis 4 passes beside the elbow.",
-                wrong={"forearm": "no offset"},
-            ),
-            mistake(
-                "joint_offset_forgotten",
-                0.6,
-                "**q2 is a quarter turn off.** Row 2 of the table turns by q2 - 90 degrees: at q2 = 0 the upper arm stands upright.",
-                in_each_row(change_entry(1, lambda q2: q2 - np.pi / 2)),
-            ),
-            degrees(0, 1, 2),
-        ),
-        angles=(0, 1, 2),
-        residual=kr210_residual,
-    ),
-    Question(
         "inverse_models.determinant",
         reference=DETERMINANT,
         mistakes=(
@@ -313,24 +302,24 @@ QUESTIONS = (
     ),
     Question(
         "inverse_models.aligned",
-        reference=align,
+        reference=own.align,
         mistakes=(
             mistake(
                 "sign_of_the_sum",
                 0.5,
-                "**The sum t4 + t6 has the wrong sign.** Which of the two entries of 3R6 carries the minus?",
+                "**The sum q4 + q6 has the wrong sign.** Positive is right-handed about Z6: thumb along it, which way does X6 have to go?",
                 wrong={"sign": -1},
             ),
             mistake(
                 "sum_half_a_turn_off",
                 0.5,
-                "**The sum t4 + t6 is half a turn off.** Check both arguments of your atan2, and put the solution into the direct model.",
+                "**The sum q4 + q6 is half a turn off.** Check both arguments of your atan2, and put the solution into the direct model.",
                 wrong={"offset": np.pi},
             ),
             degrees(wrong={"unit": 180 / np.pi}),
         ),
         angles=(0, 1, 2),
-        residual=aligned_residual,
+        residual=own.aligned_residual,
     ),
     Question(
         "inverse_models.free",
@@ -351,7 +340,7 @@ QUESTIONS = (
             mistake(
                 "joint_5_is_not_free",
                 0.1,
-                "**Joint 5 tilts the hand.** It is the value t5 = 0 that is special, not the motion of joint 5.",
+                "**Joint 5 tilts the hand.** It is the value q5 = 0 that is special, not the motion of joint 5.",
                 lambda _: [0, 0, 0, 0, 1, 0],
             ),
         ),

@@ -1,4 +1,4 @@
-"""Inverse models: elbow arm, shoulder offset, KR210, RX-90 and its aligned wrist, how many postures."""
+"""Inverse models of the documents: determinant of the elbow arm, shoulder offset, RX-90, how many postures; wrong steps."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from functools import lru_cache
 import numpy as np
 import sympy
 
-from autograder.judge import Family
 from autograder.judge.misconceptions import product
 from autograder.reference import robots
 
@@ -21,22 +20,6 @@ HAND = sympy.Matrix(robots.ELBOW_3R.symbolic_forward()[:3, 3])
 DETERMINANT = HAND.jacobian([t1, t2, t3]).subs(t1, 0).det()
 ABSOLUTE_DETERMINANT = HAND.subs(t2 + t3, t3).jacobian([t1, t2, t3]).subs(t1, 0).det()
 PLANAR_DETERMINANT = sympy.Symbol("L1") * sympy.Symbol("L2") * sympy.sin(t3)
-
-
-@lru_cache(maxsize=256)
-def elbow_arm(l1: float, l2: float) -> robots.Robot:
-    return robots.elbow_3r(l1, l2)
-
-
-def list_elbow_postures(mine) -> Rows:
-    """All [t1, t2, t3] that bring the elbow arm to the student's target."""
-    return elbow_arm(mine.L1, mine.L2).inverse([mine.x, mine.y, mine.z]).q.tolist()
-
-
-def elbow_residual(q: np.ndarray, mine) -> np.ndarray:
-    """Distance of the hand from the student's target, (k,), for joint values (k, 3)."""
-    hands = elbow_arm(mine.L1, mine.L2).forward(q)[:, :3, 3]
-    return np.linalg.norm(hands - [mine.x, mine.y, mine.z], axis=-1)
 
 
 def first_half(found: Rows) -> Rows:
@@ -87,6 +70,11 @@ def count_six_cases() -> list[int]:
     ]
 
 
+def change_count(place: int, change):
+    """A step that changes one of some counts."""
+    return lambda found: [change(value) if i == place else value for i, value in enumerate(found)]
+
+
 def change_counts(**changed):
     """A step that changes some of the six counts, named a to f."""
 
@@ -112,55 +100,6 @@ def draw_posture(rng: np.random.Generator) -> dict[str, float]:
     offset, q = rng.uniform(0.1, 0.3), rng.uniform(-np.pi, np.pi, 6)
     wx, wy = robots.puma(d2=offset, d6=0.0).forward(q)[:2, 3]
     return {"Wx": wx, "Wy": wy, "d2": offset, "A": wx * np.cos(q[0]) + wy * np.sin(q[0])}
-
-
-# ---------------------------------------------------------------- the KR210 (MECA 953 slides)
-
-
-@lru_cache
-def kr210(**lengths: float) -> robots.Robot:
-    """The KR210 without its gripper; `lengths` change its table."""
-    return robots.kr210(grip=0.0, **lengths)
-
-
-def kr210_centre(q) -> np.ndarray:
-    """The wrist centre, (..., 3), for q1 to q3, (..., 3)."""
-    q = np.asarray(q, float)
-    return kr210().forward(np.concatenate([q, np.zeros_like(q)], axis=-1))[..., :3, 3]
-
-
-def kr210_target(mine) -> list[float]:
-    return [mine.Wx, mine.Wy, mine.Wz]
-
-
-def list_kr210_postures(mine, shoulder="offset", forearm="offset", back="own") -> Rows:
-    """All [q1, q2, q3] that bring the wrist centre to the student's target.
-
-    `shoulder` and `forearm` may have ``"no offset"``; over the `back` the shoulder's offset may be ``"mirrored"``, counted
-    as in front, so that the arm folds at q1 + pi as if it were a mirror image.
-    """
-    forgotten = {name: 0.0 for name, offset in (("a1", shoulder), ("a3", forearm)) if offset == "no offset"}
-    robot, centre = kr210(**forgotten), np.array(kr210_target(mine))
-    found = _place_centre(robot, centre)
-    if back == "own":
-        return found
-    front = first_half(found)
-    r = np.hypot(*centre[:2])
-    nearer = (r - 2 * float(robot.table.chain.a[1])) / r
-    return front + [
-        row for row in _place_centre(robot, centre * [nearer, nearer, 1]) if np.cos(row[0] - front[0][0]) < 0
-    ]
-
-
-def _place_centre(robot: robots.Robot, centre) -> Rows:
-    """All [q1, q2, q3] that bring the wrist centre to a point."""
-    batch = robot.inverse_batch(general_pose(*centre)[None])
-    return batch.q[0, ::2, :3][batch.valid[0, ::2]].tolist()
-
-
-def kr210_residual(q: np.ndarray, mine) -> np.ndarray:
-    """Distance of the wrist centre from the student's target, (k,), for joint values (k, 3)."""
-    return np.linalg.norm(kr210_centre(q) - kr210_target(mine), axis=-1)
 
 
 # ---------------------------------------------------------------- the RX-90 (MECA 953 slides)
@@ -317,35 +256,3 @@ def name_case(U, a3: float, d3: float) -> str:
     if abs(abs(sine) - 1) < ALLOWED:
         return ON_LIMIT
     return WITHIN if abs(sine) < 1 else BEYOND
-
-
-# ---------------------------------------------------------------- the aligned wrist
-
-
-def align(mine, sign=1, offset=0.0, unit=1.0) -> Family:
-    """[t4, 0, t6] of the aligned wrist: with t4 = 0, with t6 = 0, with both equal. Only the sum is fixed.
-
-    The sum may have another `sign`, an `offset` in radians, and another `unit`.
-    """
-    U, arm = aligned_pose(mine)
-    seen = robots.RX90.forward([*arm, 0, 0, 0])[:3, :3].T @ U[:3, :3]
-    total = unit * (sign * float(np.arctan2(seen[1, 0], seen[0, 0])) + offset)
-    return Family([[share * total, 0.0, (1 - share) * total] for share in (0.0, 1.0, 0.5)])
-
-
-def aligned_pose(mine) -> tuple[np.ndarray, list[float]]:
-    """Hand along the forearm, its X axis `roll` above the horizontal; the arm's t1, t2, t3."""
-    arm, roll = [mine.t1, mine.t2, mine.t3], mine.roll
-    U = robots.RX90.forward([*arm, 0, 0, 0])
-    approach = U[:3, 2]
-    level = np.cross([0, 0, 1], approach) / np.linalg.norm(np.cross([0, 0, 1], approach))
-    x_axis = np.cos(roll) * level + np.sin(roll) * np.cross(approach, level)
-    U[:3, :3] = np.column_stack([x_axis, np.cross(approach, x_axis), approach])
-    return U, arm
-
-
-def aligned_residual(q: np.ndarray, mine) -> np.ndarray:
-    """Distance plus angle of the hand from the student's pose, (k,), for wrists (k, 3)."""
-    U, arm = aligned_pose(mine)
-    joints = np.concatenate([np.broadcast_to(arm, (len(q), 3)), q], axis=1)
-    return rx90_residual(joints, U, 0.45, 0.45)

@@ -8,7 +8,7 @@ One style for the whole course: x red and solid, y green and dashed, z blue and 
 that a grey print and a colour-blind reader lose nothing. Links are grey; darker means a later posture.
 """
 
-from .arms import draw_arm
+from .arms import draw_arm, end_frame
 from .chains import chain_frames, draw_chain
 from .elbow_workspace import draw_elbow_workspace, draw_section
 from .frames import draw_dh_parameters, draw_frames_3d, mark_frame, mark_path
@@ -130,6 +130,7 @@ __all__ = [
     "draw_walk",
     "draw_walked_arm",
     "draw_workspace_2r",
+    "end_frame",
     "grid_points",
     "mark_edges",
     "mark_frame",

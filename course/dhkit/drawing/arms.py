@@ -72,6 +72,13 @@ def end_frame(arm: Arm, q) -> np.ndarray:
     return _moves(arm, values)[-1] @ _end_frame(arm, values)
 
 
+def joint_points(arm: Arm, q) -> np.ndarray:
+    """The points by which the axes are known, then the end effector, (n + 1, 3), for joint values in radians and metres."""
+    values = dict(zip((joint.name for joint in arm.joints), map(float, q), strict=True))
+    stops = [*(joint.point for joint in arm.joints), arm.origin]
+    return np.array([(move @ [*arm.at(point, values), 1])[:3] for move, point in zip(_moves(arm, values), stops)])
+
+
 def _moves(arm: Arm, values) -> list[np.ndarray]:
     """What the turning joints have done to each link, from the base on, (4, 4) each: n + 1 of them."""
     moves = [np.eye(4)]

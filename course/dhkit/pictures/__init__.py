@@ -22,6 +22,7 @@ from .inverse_models import (
     show_determinant,
     show_free_direction,
     show_inverse_of_pose,
+    show_own_configurations,
     show_repaired_row,
     show_shoulder,
 )
@@ -102,6 +103,7 @@ __all__ = [
     "show_on_scara",
     "show_on_walked_arm",
     "show_origin",
+    "show_own_configurations",
     "show_own_dhm",
     "show_own_forward",
     "show_own_turns",

@@ -6,14 +6,20 @@ import matplotlib.pyplot as plt
 import numpy as np
 import sympy
 
+from ..arms import Arm
+from ..drawing.arms import draw_arm, end_frame, joint_points
 from ..drawing.chains import chain_frames, draw_chain
-from ..drawing.postures import draw_posture_family, draw_posture_gallery, draw_shoulder_top
+from ..drawing.frames import mark_frame
+from ..drawing.postures import draw_posture_gallery, draw_shoulder_top
+from ..drawing.strokes_3d import draw_target_3d
 from ..drawing.style import DASHED, INK, SOFT
+from ..drawing.view import fit_3d
 from ..geometry import rotation_angle_between
 from . import live
 from .own_result import called, card, entries, numbers, numbers_in_rows, own_result
 
 MOST = 16  # postures drawn
+_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7")
 
 
 @own_result
@@ -150,13 +156,14 @@ def show_determinant(expression, lengths):
 
 
 @own_result
-def show_free_direction(direction, table, q):
-    """Show a robot moved to and fro along a direction of its joint space, and how far the hand goes with it.
+def show_free_direction(direction, arm: Arm, q):
+    """Show an arm moved to and fro along a direction of its joint space, and how far the end effector goes with it.
 
     Parameters
     ----------
     direction : as many entries as joints
-    table : function of the joint values -> rows [sigma, a, alpha, d, theta]
+    arm : Arm
+        Of joints that turn.
     q : joint values to start from, in radians
 
     Returns
@@ -167,13 +174,67 @@ def show_free_direction(direction, table, q):
     if not step.any():
         raise ValueError("direction: expected numbers that are not all zero")
     step = step / np.linalg.norm(step)
-    moved = [table(*(np.array(q) + angle * step)) for angle in (-0.6, -0.2, 0.2, 0.6)]
-    hands = np.array([chain_frames(each)[-1] for each in moved])
+    moved = [np.array(q) + angle * step for angle in (-0.6, -0.2, 0.2, 0.6)]
+    hands = np.array([end_frame(arm, each) for each in moved])
     far = np.linalg.norm(hands[:, :3, 3] - hands[0, :3, 3], axis=1).max()
     turn = np.degrees(rotation_angle_between(hands[:, :3, :3], hands[0, :3, :3])).max()
-    ax = draw_posture_family(moved)
+    ax = draw_arm(arm, q, end_effector=False)
+    lines = [joint_points(arm, each) for each in moved]
+    for line, colour in zip(lines, _COLOURS):
+        ax.plot(*line.T, color=colour, lw=2, zorder=8)
+    for hand in hands:
+        mark_frame(ax, hand, arm.frame, 0.12 * sum(arm.lengths.values()))
+    _hold(ax, np.vstack(lines))
     rest = far < 1e-6 and turn < 1e-3
-    ax.figure.text(
-        0.5, 0.01, "the hand stays" if rest else f"the hand moves: by {far:.3f} m and {turn:.0f}°", ha="center"
-    )
+    said = "the end effector stays" if rest else f"the end effector moves: by {far:.3f} m and {turn:.0f}°"
+    ax.figure.text(0.5, 0.01, said, ha="center")
     return ax
+
+
+@own_result
+def show_own_configurations(solutions, arm: Arm, target, placed=()):
+    """Show joint solutions of an arm as lines from joint to joint, each with the distance by which it misses its target.
+
+    Parameters
+    ----------
+    solutions : rows of joint values, in radians
+        Of the first three joints for a point: lines then end in the wrist centre, where axes 4 and 5 meet. For a pose of
+        all joints, or of those behind the `placed` ones.
+    arm : Arm
+        Of six joints that turn.
+    target : array-like, shape (3,) or (4, 4)
+        A point for the wrist centre in metres, or a pose of the end effector.
+    placed : sequence of float
+        Values of the first joints, where they are given.
+
+    Returns
+    -------
+    matplotlib Axes (3D)
+        Every line should end in the cross.
+    """
+    target = np.array(target, dtype=float)
+    centre, count = target.shape == (3,), len(arm.joints)
+    rows = numbers_in_rows(solutions, "solutions", 3 if centre else count - len(placed))
+    if not len(rows):
+        return card("no solution given")
+    rows = [[*placed, *row, *[0.0] * (count - len(placed) - len(row))] for row in rows[:MOST]]
+    ax = draw_arm(arm, rows[0], end_effector=False)
+    goal, lines, misses = (target if centre else target[:3, 3]), [], []
+    for k, q in enumerate(rows):
+        colour, line = _COLOURS[k % len(_COLOURS)], joint_points(arm, q)[: 5 if centre else None]
+        lines.append(line)
+        ax.plot(*line.T, color=colour, lw=2, marker="o", ms=4, zorder=8 + k)
+        miss = f"{k + 1}: {1000 * np.linalg.norm(line[-1] - goal):.0f} mm"
+        if not centre:
+            miss += f" and {np.degrees(rotation_angle_between(end_frame(arm, q)[:3, :3], target[:3, :3])):.1f}°"
+        misses.append(miss)
+    draw_target_3d(ax, goal, INK, zorder=30, width=1.6)
+    _hold(ax, np.vstack(lines))
+    ax.figure.text(0.5, 0.01, "off the target: " + ", ".join(misses), ha="center")
+    return ax
+
+
+def _hold(ax, points):
+    """Widen the view until it holds these points, too."""
+    corners = np.array([ax.get_xlim(), ax.get_ylim(), ax.get_zlim()]).T
+    fit_3d(ax, np.vstack([points, corners]), own=True, pad=0.5)

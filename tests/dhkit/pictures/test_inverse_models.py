@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 import sympy
 
-from dhkit.drawing import chain_frames
+from dhkit.arms import arm_of
+from dhkit.drawing import chain_frames, end_frame
+from dhkit.drawing.arms import joint_points
 from dhkit.pictures import inverse_models as pictures
 
 H = np.pi / 2
@@ -35,14 +37,19 @@ def rx90(t1, t2, t3, t4, t5, t6, a3=0.45, d3=0.45):
 PRINTED = [[0, 0, 0, 0, 0.1], [0, 0, H, 0, 0.4], [0, 0.5, 0, 0, 0.3]]
 POINT = chain_frames(arm(*ARM))[-1][:3, 3]
 POSE = chain_frames(rx90(*ARM, 0.2, 0.0, 0.3))[-1]
+OWN = arm_of({"arm": "sideways"})
+CENTRE = joint_points(OWN, [*ARM, 0, 0, 0])[4]
+ALIGNED = end_frame(OWN, [*ARM, 0.2, 0.0, 0.3])
 SHOWN = {
+    "own": lambda answer: pictures.show_own_configurations(answer, OWN, CENTRE),
+    "wrist": lambda answer: pictures.show_own_configurations(answer, OWN, ALIGNED, ARM),
     "postures": lambda answer: pictures.show_all_postures(answer, arm, POINT),
     "poses": lambda answer: pictures.show_all_postures(answer, rx90, POSE),
     "function": lambda answer: pictures.show_inverse_of_pose(answer, rx90, POSE, 0.45, 0.45),
     "shoulder": lambda answer: pictures.show_shoulder(answer, 0.15, (-0.25, 0.4)),
     "row": lambda answer: pictures.show_repaired_row(answer, PRINTED, {}),
     "determinant": lambda answer: pictures.show_determinant(answer, (0.5, 0.4)),
-    "direction": lambda answer: pictures.show_free_direction(answer, rx90, [*ARM, 0.2, 0.0, 0.3]),
+    "direction": lambda answer: pictures.show_free_direction(answer, OWN, [*ARM, 0.2, 0.0, 0.3]),
 }
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -93,8 +100,8 @@ def test_both_shoulders_end_where_the_formula_says():
 
 
 def test_the_free_direction_is_told_from_one_that_moves_the_hand():
-    assert "the hand stays" in said(SHOWN["direction"]([0, 0, 0, 2, 0, -2]))
-    assert "the hand moves" in said(SHOWN["direction"]([0, 0, 0, 1, 0, 1]))
+    assert "the end effector stays" in said(SHOWN["direction"]([0, 0, 0, 2, 0, -2]))
+    assert "the end effector moves" in said(SHOWN["direction"]([0, 0, 0, 1, 0, 1]))
 
 
 def test_the_determinant_vanishes_on_ink_lines():
@@ -105,3 +112,8 @@ def test_the_determinant_vanishes_on_ink_lines():
 
 def test_a_row_outside_the_table_is_refused_in_words():
     assert "expected a number from 1 to 3, found 7" in said(SHOWN["row"]([7, 0, 0, 0, 0, 0]))
+
+
+def test_configurations_of_an_arm_say_how_far_they_are_off_the_target():
+    assert "off the target: 1: 0 mm, 2: " in said(SHOWN["own"]([ARM, (0.4, 0.7, -0.8)]))
+    assert "1: 0 mm and 0.0°, 2: 0 mm and 5.7°" in said(SHOWN["wrist"]([(0.5, 0.0, 0.0), (0.4, 0.0, 0.0)]))
