@@ -200,6 +200,7 @@ QUESTIONS = (
     Question(
         "direct_models.K",
         reference=own.turns,
+        depends=("arm",),
         mistakes=(
             mistake(
                 "sign_of_translation",
@@ -247,6 +248,7 @@ QUESTIONS = (
     Question(
         "direct_models.end_point",
         reference=own.end_point,
+        depends=("arm",),
         mistakes=(
             mistake(
                 "base_first_with_fixed_centres",
@@ -279,6 +281,7 @@ QUESTIONS = (
     Question(
         "direct_models.table",
         reference=own.rows,
+        depends=("arm",),
         mistakes=(
             classic_table(),
             columns_exchanged("a", "d"),
@@ -293,6 +296,7 @@ QUESTIONS = (
     Question(
         "direct_models.reading",
         reference=own.reading,
+        depends=("robot", "sheet"),
         mistakes=(
             mistake(
                 "lengths_exchanged",
@@ -320,6 +324,7 @@ QUESTIONS = (
     Question(
         "direct_models.U2",
         reference=own.from_frame_2,
+        depends=("robot", "sheet"),
         mistakes=(
             mistake(
                 "one_step_short",
@@ -351,6 +356,7 @@ QUESTIONS = (
     Question(
         "direct_models.T06",
         reference=own.product,
+        depends=("robot", "sheet"),
         mistakes=(
             mistake(
                 "one_step_short",

@@ -75,6 +75,7 @@ QUESTIONS = (
     Question(
         "inverse_models.own_counts",
         reference=own.counts,
+        depends=("arm",),
         mistakes=(
             mistake(
                 "wrist_not_counted",
