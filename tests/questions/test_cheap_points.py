@@ -44,7 +44,7 @@ def what_follows(question, before):
     if find(question.follows.earlier).form.kind == "transform":
         return [*(row[3] for row in before[:3]), sympy.atan2(before[1][0], before[0][0])]
     T = sympy.eye(4)
-    for row in before[1 if question.id == "scara_s600.T14" else 0 :]:
+    for row in before:
         T = T * modified_dh(*row[1:])
     return T if question.form.kind == "transform" else list(T[:3, 3])
 

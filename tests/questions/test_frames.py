@@ -9,7 +9,7 @@ from autograder.questions import exercises, find
 TABLES = [q for qs in exercises().values() for q in qs if q.form.kind == "dh_table"]
 # Which senses a statement tells: "every Z_i points ..." and "X_i points ...", or only that the product must be the same.
 FIXED = {
-    "scara.table": "Z", "scara_s600.table": "ZX", "tables.arm": "ZX", "direct_models.table": "Z",
+    "scara.table": "Z", "tables.arm": "ZX", "direct_models.table": "Z",
     "parameters.flip": "ZX", "transforms.convert": "", "tables.wrist": "", "pen_robot.table": "",
 }  # fmt: skip
 

@@ -22,14 +22,6 @@ ONCE_MISNAMED = {
         f"singular {x}": ("parallel_robots.singular", lambda _, x=x: x, "joint_for_p+one_leg_upright", "")
         for x in (0, 0.5, 0.7, 0.8, 1)
     },
-    "last row of the s600 empty": ("scara_s600.table", lambda rows: [*rows[:3], [0] * 5], "rows_shifted", "row 4"),
-    "first row of the s600 empty": ("scara_s600.table", lambda rows: [[0] * 5, *rows[1:]], "rows_shifted", "row 1"),
-    "t1 of the s600 forgotten": (
-        "scara_s600.table",
-        lambda rows: at(rows, 1, 4, 0),
-        "rows_shifted",
-        "row 1, column theta",
-    ),
     "sign in Rot_y": (
         "orientation.rpy_entries",
         lambda found: [sympy.sympify(entry).subs(theta, -theta) for entry in found],

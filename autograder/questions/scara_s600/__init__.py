@@ -1,11 +1,10 @@
-"""The Adept s600 tutorial: table, product, misprints, type-8 equation, inverse model, classic table, its cousin."""
+"""The Adept s600 tutorial, a SCARA that the id chooses, a robot for a task, and the lengths of a measured arm."""
 
 from __future__ import annotations
 
 import sympy
 
 from autograder.judge import Follow, Question, following, mistake
-from autograder.judge.chain import SAME_FRAMES
 from autograder.judge.misconceptions import (
     classic_table,
     columns_exchanged,
@@ -13,60 +12,52 @@ from autograder.judge.misconceptions import (
     fails_on_limit,
     misprint,
     posture_missing,
-    reversed_product,
     rows_shifted,
     symbol_negated,
     tolerance_too_wide,
 )
-from autograder.judge.steps import change_cell, in_each_row, negate
+from autograder.judge.steps import exchange, in_each_row, negate
 
 from .model import (
-    B1,
-    B2,
-    CLASSIC,
     HAND,
-    ROWS,
-    T14,
-    T14_WITH_Z4_UP,
-    TRANSFORMS,
     blame,
     constant_missing,
     draw_poses,
-    draw_posture,
+    fitted,
+    fitting,
     keep_elbow,
     list_configurations,
     mgi,
-    move_links_down,
     name_case,
+    own_classic,
+    own_rows,
+    own_transform,
     r3,
     r30,
     residual,
-    solve_linear,
     t1,
     t2,
     t4,
-    turn_axis_3_over,
+    without_half_turn,
 )
 
-Z4_IS_DOWN = (
-    "**z4 points upwards in this answer.** In the drawing it points against z3: how far must z turn about x3 to get there, "
-    "and what does that do to y and z of the hand?"
-)
 ANGLES_ADDED = (
     "**t4 is counted like t1 and t2.** It turns about an axis that points the other way: look at the hand from above and "
     "turn it about z4."
+)
+NO_Z_TURNS_OVER = (
+    "**No z turns over in this answer.** Read where each z points: between which two is half a turn about x?"
 )
 
 QUESTIONS = (
     Question(
         "scara_s600.table",
-        reference=ROWS,
+        reference=own_rows,
         mistakes=(
-            mistake("z4_upwards", 0.6, Z4_IS_DOWN, change_cell(4, "alpha", lambda _: 0)),
-            constant_missing(),
+            mistake("z_never_turns_over", 0.6, NO_Z_TURNS_OVER, without_half_turn),
             classic_table(
-                feedback="**This is the classic Denavit-Hartenberg table**, as the simulator lists it. In the modified form row i holds d "
-                "and alpha of the link *before* joint i."
+                feedback="**This is the classic Denavit-Hartenberg table.** In the modified form row i holds d and alpha of the link "
+                "*before* joint i."
             ),
             columns_exchanged(
                 "a",
@@ -76,24 +67,25 @@ QUESTIONS = (
                 "joint axis to the next; r along z.",
             ),
             rows_shifted(
-                feedback="**The rows are shifted by one.** Row i leads from frame i-1 to frame i. Frames 0 and 1 share their origin and "
-                "their z: what does row 1 hold then, and which joint?"
+                feedback="**The rows are shifted by one.** Row i leads from frame i-1 to frame i. What lies between the base and joint 1?"
             ),
         ),
         partial=0.6,
-        pinned=SAME_FRAMES,
         columns=("sigma", "d", "alpha", "r", "theta"),
     ),
     Question(
-        "scara_s600.T14",
-        reference=T14,
+        "scara_s600.T04",
+        reference=own_transform,
         mistakes=(
-            mistake("z4_upwards", 0.5, Z4_IS_DOWN, lambda _: T14_WITH_Z4_UP),
-            symbol_negated(t4, "angles_added", ANGLES_ADDED),
-            constant_missing(),
-            reversed_product(*TRANSFORMS[1:]),
+            mistake("z_never_turns_over", 0.5, NO_Z_TURNS_OVER, wrong={"axis": 0}),
+            mistake(
+                "reversed_product",
+                0.3,
+                "**The matrices are multiplied in the reverse order.** From left to right: base first, end effector last.",
+                wrong={"order": -1},
+            ),
         ),
-        follows=Follow("scara_s600.table", lambda rows: following.product_of_table(rows[:, 1:])),
+        follows=Follow("scara_s600.table", following.product_of_table),
     ),
     Question(
         "scara_s600.wrong_cell",
@@ -138,30 +130,6 @@ QUESTIONS = (
                 blame(1, instead_of=2),
             ),
         ),
-    ),
-    Question(
-        "scara_s600.linear",
-        reference=solve_linear(B1, B2),
-        mistakes=(
-            misprint(
-                solve_linear(B2, B1),
-                "at tj = 0 the hand is X + Y ahead and nothing to the left; with the printed names it is the other way round.",
-                share=0.4,
-            ),
-            mistake(
-                "determinant_missing",
-                0.5,
-                "**Cosine and sine are not divided by the determinant.** Square and add them: is it 1?",
-                lambda pair: [entry * (B1**2 + B2**2) for entry in pair],
-            ),
-            mistake(
-                "sign_of_the_sine",
-                0.5,
-                "**The sine has the wrong sign.** Try tj = 0 with the hand straight above the base.",
-                negate(1),
-            ),
-        ),
-        draw=draw_posture,
     ),
     Question(
         "scara_s600.mgi",
@@ -222,34 +190,16 @@ QUESTIONS = (
     ),
     Question(
         "scara_s600.classic",
-        reference=CLASSIC,
+        reference=own_classic,
         mistakes=(
             mistake(
                 "modified_table",
                 0.3,
                 "**This is the modified table.** In the classic form a row holds the joint first and the link *behind* it.",
-                move_links_down,
+                wrong={"modified": True},
             ),
-            mistake(
-                "links_moved_the_wrong_way",
-                0.3,
-                "**The links have moved down instead of up.** Row 1 of the classic table holds joint 1 and what lies between axes 1 and 2.",
-                lambda rows: move_links_down(move_links_down(rows)),
-            ),
-            mistake(
-                "axis_3_turned_over",
-                0.8,
-                "**The right robot, with axis 3 turned over.** The question asks for the axes of the modified table, where axis 3 points up.",
-                turn_axis_3_over(-1),
-            ),
-            mistake(
-                "half_turn_too_early",
-                0.4,
-                "**The half turn comes one row too early.** Behind it z points down: with this d the hand is above the arm.",
-                turn_axis_3_over(1),
-            ),
+            mistake("z_never_turns_over", 0.4, NO_Z_TURNS_OVER, without_half_turn),
         ),
-        angles=tuple(range(1, 16, 2)),
     ),
     Question(
         "scara_s600.cousin",
@@ -270,5 +220,53 @@ QUESTIONS = (
             constant_missing(),
         ),
         angles=(1,),
+    ),
+    Question(
+        "scara_s600.choice",
+        reference=fitting,
+        places=False,
+        mistakes=(
+            mistake(
+                "hole_forgotten",
+                0.5,
+                "**Near parts are overlooked.** No elbow folds completely: at its stop the end effector is still some way from axis 1. How far?",
+                wrong={"inner": False},
+            ),
+            mistake(
+                "stroke_forgotten",
+                0.5,
+                "**The stroke is overlooked.** How far must the quill go, and how far does it go?",
+                wrong={"stroke": False},
+            ),
+            mistake(
+                "gripper_forgotten",
+                0.6,
+                "**The gripper weighs something, too.** The payload of a data sheet is all that hangs on the flange.",
+                wrong={"gripper": False},
+            ),
+        ),
+    ),
+    Question(
+        "scara_s600.lengths",
+        reference=fitted,
+        tolerance=6e-4,  # some three standard deviations of what 30 such points leave open
+        mistakes=(
+            mistake(
+                "as_on_the_data_sheet",
+                0.0,
+                "**These are the lengths of the data sheet.** Put them into the model: how far are the measured points from it?",
+                wrong={"sheet": True},
+            ),
+            mistake(
+                "tracker_not_at_the_base",
+                0.5,
+                "**The tracker's origin is not quite on axis 1.** Two more unknowns, the place of axis 1 in the tracker's frame, stand in the "
+                "same linear equations.",
+                wrong={"offset": False},
+            ),
+            mistake(
+                "lengths_exchanged", 0.5, "**The two lengths are exchanged.** d2 turns with t1 alone.", exchange(0, 1)
+            ),
+        ),
     ),
 )

@@ -11,20 +11,16 @@ from autograder.judge import Family, mistake
 from autograder.judge.misconceptions import product
 from autograder.judge.steps import substitute
 from autograder.reference import robots
+from dhkit.scara_tasks import GRIPPER, catalogue, measured
 from dhm.transforms import modified_dh
 
 from ..shared import two_link
 from ..shared.residuals import distance_and_turn
-from ..shared.tables import list_rows
 
 t1, t2, r3, t4, d2, d3, r30 = sympy.symbols("t1 t2 r3 t4 d2 d3 r30")
-X, Y, Z1, Z2, tj = sympy.symbols("X Y Z1 Z2 tj")
 
 TABLE = robots.ADEPT_S600.table
-ROWS = list_rows(TABLE)
-TRANSFORMS = TABLE.transforms()
-HAND, T14, *_ = TABLE.recursion()
-T14_WITH_Z4_UP = product([*TRANSFORMS[1:3], modified_dh(0, 0, 0, t4)])
+HAND = TABLE.recursion()[0]
 R30 = -0.05
 
 CONSTANT = (
@@ -36,23 +32,6 @@ CONSTANT = (
 def constant_missing(share=0.7):
     """The mistake of leaving out r30."""
     return mistake("constant_missing", share, CONSTANT, substitute({r30: 0}))
-
-
-# ---------------------------------------------------------------- the type-8 equation
-
-B1, B2 = X + Y * sympy.cos(tj), Y * sympy.sin(tj)
-
-
-def solve_linear(b1, b2) -> list[sympy.Expr]:
-    """[cos, sin] of the angle that carries (b1, b2) onto (Z1, Z2)."""
-    norm = b1**2 + b2**2
-    return [(Z1 * b1 + Z2 * b2) / norm, (Z2 * b1 - Z1 * b2) / norm]
-
-
-def draw_posture(rng: np.random.Generator) -> dict[str, float]:
-    """A sample point: Z1, Z2 and tj belong to one posture."""
-    l1, l2, _, q2, x, y = two_link.draw_posture(rng)
-    return {"X": l1, "Y": l2, "Z1": x, "Z2": y, "tj": q2}
 
 
 def blame(wrong: int, instead_of: int):
@@ -159,24 +138,79 @@ def list_configurations(mine) -> list[list[float]]:
     return found
 
 
-# ---------------------------------------------------------------- the classic table
+# ---------------------------------------------------------------- the SCARA that the id chooses
 
-CLASSIC = [[*link, *row[3:]] for link, row in zip([row[1:3] for row in ROWS[1:]] + [[0, 0]], ROWS)]
+q1, q2, q3, q4, A, B, H = sympy.symbols("q1 q2 q3 q4 A B H")
+TABLES = {
+    "column": [[1, 0, 0, q1 + H, 0], [0, 0, 0, 0, q2], [0, A, 0, 0, q3], [0, B, sympy.pi, 0, q4]],
+    "carousel": [[0, 0, 0, 0, q1], [1, 0, 0, q2 + H, 0], [0, A, 0, 0, q3], [0, B, sympy.pi, 0, q4]],
+    "ceiling": [[0, 0, sympy.pi, H, q1], [0, A, 0, 0, q2], [1, B, 0, q3, 0], [0, 0, 0, 0, q4]],
+    "quill last": [[0, 0, 0, H, q1], [0, A, 0, 0, q2], [0, B, sympy.pi, 0, q3], [1, 0, 0, q4, 0]],
+}
+"""DHm rows of each arm of `dhkit.scara_tasks.SCARAS`."""
+CLASSIC = {
+    "column": [[0, 0, q1 + H, 0], [A, 0, 0, q2], [B, sympy.pi, 0, q3], [0, 0, 0, q4]],
+    "carousel": [[0, 0, 0, q1], [A, 0, q2 + H, 0], [B, sympy.pi, 0, q3], [0, 0, 0, q4]],
+    "ceiling": [[A, sympy.pi, -H, -q1], [B, 0, 0, q2], [0, 0, q3, 0], [0, 0, 0, q4]],
+    "quill last": [[A, 0, H, q1], [B, sympy.pi, 0, q2], [0, 0, 0, q3], [0, 0, q4, 0]],
+}
+"""Classic rows [a, alpha, d, theta] of the same arms."""
 
 
-def turn_axis_3_over(sign: int):
-    """A step: half a turn already behind joint 2; the height of row 3 with the given sign."""
-
-    def step(rows):
-        second, third = list(rows[1]), list(rows[2])
-        second[1], third[1] = sympy.pi, 0
-        third[2] = sign * third[2]
-        return [rows[0], second, third, rows[3]]
-
-    return step
+def own_rows(mine) -> list[list]:
+    """The table of the student's SCARA."""
+    return TABLES[mine.arm]
 
 
-def move_links_down(rows):
-    """The columns of the links one row further down than in the classic table of the same rows."""
-    links = [[0, 0], *([*row[:2]] for row in rows[:-1])]
-    return [[*link, *row[2:]] for link, row in zip(links, rows)]
+@lru_cache
+def _product(arm: str, order: int, axis: int) -> sympy.Matrix:
+    rows = TABLES[arm] if axis else without_half_turn(TABLES[arm])
+    return sympy.simplify(product([modified_dh(*row[1:]) for row in rows][::order]))
+
+
+def own_transform(mine, *, order=1, axis=1) -> sympy.Matrix:
+    """The transform from base to frame 4 of the student's SCARA.
+
+    The matrices may be multiplied in the other `order`; with `axis` 0 no z turns over.
+    """
+    return _product(mine.arm, order, axis)
+
+
+def without_half_turn(rows: list[list]) -> list[list]:
+    """A table, modified or classic, in which no z turns over."""
+    return [[0 if cell == sympy.pi else cell for cell in row] for row in rows]
+
+
+def own_classic(mine, *, modified=False) -> list[list]:
+    """The classic table of the student's SCARA; or its `modified` one, without sigma."""
+    return [row[1:] for row in TABLES[mine.arm]] if modified else CLASSIC[mine.arm]
+
+
+# ---------------------------------------------------------------- choose, and measure
+
+
+def fitting(mine, *, inner=True, stroke=True, gripper=True) -> list[int]:
+    """Which robots of the catalogue do the student's task, 0 or 1 each; a demand may be overlooked."""
+    found = []
+    for upper, fore, elbow, quill, payload in catalogue(mine).values():
+        nearest = np.sqrt(upper**2 + fore**2 + 2 * upper * fore * np.cos(np.radians(elbow))) if inner else 0.0
+        load = mine.mass + (GRIPPER if gripper else 0.0)
+        fits = nearest <= mine.near and mine.far <= upper + fore and (mine.lift <= quill or not stroke)
+        found.append(int(fits and load <= payload))
+    return found
+
+
+def fitted(mine, *, offset=True, sheet=False) -> list[float]:
+    """[d2, d3] of the measured arm, by least squares; without the `offset` of the tracker, or as the data `sheet` has them."""
+    if sheet:
+        return [mine.d2, mine.d3]
+    first, second, px, py = measured(mine).T
+    one, none = np.ones_like(first), np.zeros_like(first)
+    columns = [
+        [np.cos(first), np.sin(first)],
+        [np.cos(first + second), np.sin(first + second)],
+        [one, none],
+        [none, one],
+    ]
+    design = np.array([np.concatenate(column) for column in columns[: 4 if offset else 2]]).T
+    return np.linalg.lstsq(design, np.concatenate([px, py]), rcond=None)[0][:2].tolist()

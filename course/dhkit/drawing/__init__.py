@@ -39,6 +39,7 @@ from .postures import (
 )
 from .scara import draw_scara_3d, draw_scara_projections, draw_scara_side, draw_scara_top, scara_frames
 from .scara_s600 import draw_s600_side, draw_s600_top, draw_type8
+from .scara_tasks import draw_own_scara
 from .scenes import draw_parallel_axes, draw_reading, draw_shelf
 from .six_axes import draw_six_axes
 from .statements import draw_marks_by_line
@@ -94,6 +95,7 @@ __all__ = [
     "draw_joint_origins",
     "draw_leg_lines",
     "draw_marks_by_line",
+    "draw_own_scara",
     "draw_parallel_axes",
     "draw_parameter_steps",
     "draw_pen_robot",

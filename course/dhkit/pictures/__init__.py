@@ -49,7 +49,7 @@ from .pen import show_circles, show_height, show_pen_inverse, show_tip, show_tra
 from .planar import show_inverse, show_on_planar_arm, show_postures, show_theta1
 from .planar_arms import show_belt, show_on_walked_arm, show_rods, show_walked_postures
 from .scara import show_on_scara, show_scara_forward
-from .scara_s600 import show_classic, show_configurations, show_linear, show_mgi, show_on_s600
+from .scara_s600 import show_classic, show_configurations, show_mgi, show_misfits, show_on_own_scara
 from .tables import (
     show_chain,
     show_classic_rows,
@@ -91,15 +91,15 @@ __all__ = [
     "show_inverse",
     "show_inverse_of_pose",
     "show_leg_lengths",
-    "show_linear",
     "show_link",
     "show_marks",
     "show_mgi",
+    "show_misfits",
     "show_modes",
     "show_on_arm",
     "show_on_origins",
+    "show_on_own_scara",
     "show_on_planar_arm",
-    "show_on_s600",
     "show_on_scara",
     "show_on_walked_arm",
     "show_origin",

@@ -2,98 +2,93 @@
 
 from __future__ import annotations
 
-from itertools import product
-
 import numpy as np
 
-from ..drawing.chains import draw_chain
-from ..drawing.frames import mark_frame
 from ..drawing.planar import draw_postures, mark_hands
-from ..drawing.style import in_degrees
-from ..drawing.view import fit_3d
-from ..geometry import chain_products, classic_dh, two_link, wrap
+from ..drawing.scara_tasks import draw_own_scara
+from ..drawing.strokes import draw_axis_arrow, draw_target, leave_room, new_axes, show_plane
+from ..drawing.style import INK, in_degrees
+from ..geometry import chain_products, classic_dh, wrap
+from ..scara_tasks import measured
 from .own_result import called, numbers, numbers_in_rows, own_result, say_if_not_rigid
 from .planar import show_inverse
 
 
-def _table(values):
-    return [
-        [0, 0, 0, 0, values["t1"]],
-        [0, values["d2"], 0, 0, values["t2"]],
-        [1, values["d3"], 0, values["r3"] + values["r30"], 0],
-        [0, 0, np.pi, 0, values["t4"]],
-    ]
-
-
 @own_result
-def show_on_s600(answer, values: dict[str, float], base="0"):
-    """Show a hand frame beside the s600 in the posture given by `values`: it belongs on the flange, with Z_4 down.
+def show_on_own_scara(transform, arm, values):
+    """Show frame 4 of a transform beside a SCARA with all turns 0, seen from the side.
 
     Parameters
     ----------
-    answer : 4x4 matrix, SymPy or numbers
+    transform : 4x4 matrix, SymPy or numbers
+    arm : str
+        A name of `dhkit.scara_tasks.SCARAS`.
     values : dict
-        Numbers for t1, t2, t4 (radians), r3, d2, d3, r30 (metres).
-    base : "0" or "1"
-        Frame from which the answer is seen. For "1" the robot is drawn with t1 = 0, so that its base is frame 1.
+        Numbers for q1 to q4, A, B, H; those of the joints that turn are 0.
 
     Returns
     -------
-    matplotlib Axes (3D)
+    matplotlib Axes
     """
-    return _mark_hand(numbers(answer, "transform", (4, 4), values), values | ({"t1": 0.0} if base == "1" else {}))
+    return _mark_frame_4(numbers(transform, "transform", (4, 4), values), arm, values)
 
 
 @own_result
-def show_classic(table, values: dict[str, float]):
-    """Show the hand frame that a classic table [a, alpha, d, theta] leads to, beside the s600.
+def show_classic(table, arm, values):
+    """Show frame 4 at the end of a classic table [a, alpha, d, theta], as `show_on_own_scara` does.
 
     Parameters
     ----------
     table : four rows of four entries, SymPy or numbers
-    values : dict
-        As for `show_on_s600`.
+    arm, values : as for `show_on_own_scara`
 
     Returns
     -------
-    matplotlib Axes (3D)
+    matplotlib Axes
     """
     rows = numbers(table, "table", (4, 4), values)
-    return _mark_hand(chain_products(classic_dh(*rows.T))[-1], values)
+    return _mark_frame_4(chain_products(classic_dh(*rows.T))[-1], arm, values)
 
 
-def _mark_hand(frame, values):
-    size = 0.28 * (values["d2"] + values["d3"])
-    ax = draw_chain(_table(values), frames=(), axes=False)
-    mark_frame(ax, frame, "4", size)
-    robot = np.array(list(product(ax.get_xlim(), ax.get_ylim(), ax.get_zlim())))
-    fit_3d(ax, np.vstack([robot, frame[:3, 3] + 1.35 * size * frame[:3, :3].T]), True)
+def _mark_frame_4(frame, arm, values):
+    ax = draw_own_scara(arm, values, words=False)
+    place = frame[[0, 2], 3]
+    draw_target(ax, place)
+    for letter, column in (("x", 0), ("z", 2)):
+        across, up = frame[[0, 2], column]
+        if np.hypot(across, up) > 1e-9:
+            draw_axis_arrow(ax, place, np.arctan2(up, across), 0.16 * np.hypot(across, up), letter, f"{letter}_4")
+    leave_room(ax, 0.1)
+    ax.set_title("your frame 4")
     say_if_not_rigid(ax, frame)
     return ax
 
 
 @own_result
-def show_linear(answer, lengths, target):
-    """Show both arms that a formula for the cosine and the sine of t1 gives for one target, t2 being right.
+def show_misfits(lengths, mine):
+    """Show how far every measured point is from the model with the lengths of an answer.
 
     Parameters
     ----------
-    answer : two expressions [cos_i, sin_i] in X, Y, Z1, Z2, tj
-    lengths, target : (float, float), in metres
-        The target lies between the limits of reach.
+    lengths : 2 numbers [d2, d3], in metres
+    mine : mapping
+        The student's numbers.
 
     Returns
     -------
     matplotlib Axes
-        Both arms end on the target; the lengths of (cos, sin) stand in the title.
+        The tracker's origin is placed as well as it can be for these lengths. What is left of a right answer is noise.
     """
-    (l2, l3), (x, y) = lengths, target
-    bends = two_link(x + 1j * y, l2, l3).bend
-    given = {"X": l2, "Y": l3, "Z1": x, "Z2": y}
-    pairs = [numbers(answer, "cos_i, sin_i", (2,), given | {"tj": bend}) for bend in bends]
-    rows = [(np.arctan2(pair[1], pair[0]), bend) for pair, bend in zip(pairs, bends)]
-    ax = draw_postures(lengths, rows, target)
-    ax.set_title("cos² + sin² = " + " and ".join(f"{pair @ pair:.4g}" for pair in pairs))
+    d2, d3 = numbers(lengths, "lengths", (2,), {})
+    first, second, x, y = measured(mine).T
+    gap = np.column_stack(
+        [x - d2 * np.cos(first) - d3 * np.cos(first + second), y - d2 * np.sin(first) - d3 * np.sin(first + second)]
+    )
+    gap = 1000 * (gap - gap.mean(axis=0))
+    ax = new_axes((4.6, 4.2))
+    show_plane(ax, labels=("misfit in x (mm)", "misfit in y (mm)"))
+    ax.plot(*gap.T, "o", color=INK, ms=4)
+    ax.set_title(f"root mean square {np.sqrt((gap**2).sum(axis=1).mean()):.2f} mm")
     return ax
 
 

@@ -6,16 +6,18 @@ matplotlib.use("Agg")
 
 import numpy as np
 import pytest
-from mpl_toolkits.mplot3d import Axes3D
-from sympy import cos, pi, sin, symbols
+from sympy import pi, symbols
 
-from dhkit.pictures.scara_s600 import show_classic, show_configurations, show_linear, show_mgi, show_on_s600
+from dhkit.drawing import draw_own_scara
+from dhkit.pictures.scara_s600 import show_classic, show_configurations, show_mgi, show_misfits, show_on_own_scara
+from dhkit.scara_tasks import SCARAS, measured
+from dhkit.variants import variant
 
-X, Y, Z1, Z2, tj, d2, d3, r3, r30, t1, t2, t4 = symbols("X Y Z1 Z2 tj d2 d3 r3 r30 t1 t2 t4")
-SAMPLE = {"t1": -0.4, "t2": 1.0, "r3": -0.1, "t4": 0.6, "d2": 0.325, "d3": 0.275, "r30": -0.08}
-CLASSIC = [[d2, 0, 0, t1], [d3, 0, 0, t2], [0, pi, r3 + r30, 0], [0, 0, 0, t4]]
-HAND = np.array([0.325 * np.cos(-0.4) + 0.275 * np.cos(0.6), 0.325 * np.sin(-0.4) + 0.275 * np.sin(0.6), -0.18])
+q1, q2, q3, q4, A, B, H = symbols("q1 q2 q3 q4 A B H")
+SAMPLE = {"q1": 0.1, "q2": 0.0, "q3": 0.0, "q4": 0.0, "A": 0.4, "B": 0.3, "H": 0.5}
+COLUMN = [[0, 0, q1 + H, 0], [A, 0, 0, q2], [B, pi, 0, q3], [0, 0, 0, q4]]
 LENGTHS, TARGET = (0.325, 0.275), (-0.2, 0.4)
+MINE = variant("scara_s600", "ada")
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -24,49 +26,35 @@ def said(ax) -> str:
     return " ".join(text.get_text() for text in [*ax.texts, *ax.figure.texts, ax.title])
 
 
-def origin_and_z(ax):
-    """Origin of the marked frame and the direction of its z axis."""
-    origin = next(
-        np.array(line.get_data_3d())[:, 0] for line in ax.lines if line.get_marker() == "o" and line.get_zorder() == 7
-    )
-    arrow = next(line for line in ax.lines if line.get_color() == "#0072B2")
-    ends = np.array(arrow.get_data_3d())
-    return origin, (ends[:, 1] - ends[:, 0]) / np.linalg.norm(ends[:, 1] - ends[:, 0])
+def cross(ax):
+    return next(line.get_xydata()[0] for line in ax.lines if line.get_marker() == "+")
 
 
-def test_a_right_classic_table_ends_on_the_flange_with_z4_down():
-    origin, z = origin_and_z(show_classic(CLASSIC, SAMPLE))
-    assert origin == pytest.approx(HAND) and z == pytest.approx([0, 0, -1])
-    early = [CLASSIC[0], [d3, pi, 0, t2], [0, 0, r3 + r30, 0], CLASSIC[3]]
-    assert origin_and_z(show_classic(early, SAMPLE))[0][2] == pytest.approx(0.18)
+def test_a_right_classic_table_ends_at_the_end_of_the_arm():
+    assert cross(show_classic(COLUMN, "column", SAMPLE)) == pytest.approx([0.7, 0.6])
+    assert cross(show_classic([[0, 0, 0, 0]] * 4, "column", SAMPLE)) == pytest.approx([0, 0])
 
 
 def test_a_transform_is_drawn_where_it_is():
     frame = np.diag([1.0, -1.0, -1.0, 1.0])
     frame[:3, 3] = 0.1, 0.2, 0.3
-    origin, z = origin_and_z(show_on_s600(frame, SAMPLE, base="1"))
-    assert origin == pytest.approx([0.1, 0.2, 0.3]) and z == pytest.approx([0, 0, -1])
+    assert cross(show_on_own_scara(frame, "ceiling", SAMPLE)) == pytest.approx([0.1, 0.3])
+    assert "not a rigid displacement" in said(show_on_own_scara(2 * frame, "ceiling", SAMPLE))
 
 
-def formula(b1, b2):
-    return [(Z1 * b1 + Z2 * b2) / (b1**2 + b2**2), (Z2 * b1 - Z1 * b2) / (b1**2 + b2**2)]
+@pytest.mark.parametrize("arm", SCARAS)
+def test_every_scara_is_drawn_with_its_letters_and_axes(arm):
+    texts = [text.get_text() for text in draw_own_scara(arm, SAMPLE).texts]
+    assert {"$A$", "$B$", "$H$", *(f"$q_{i}$" for i in range(1, 5)), *(f"$z_{i}$" for i in range(5))} <= set(texts)
 
 
-def test_linear_puts_both_hands_on_the_target_only_if_right():
-    def strokes_to_target(pair):
-        ends = [line.get_xydata() for line in show_linear(pair, LENGTHS, TARGET).lines if len(line.get_xydata()) == 2]
-        return sum(np.isclose(points, TARGET).all(axis=1).any() for points in ends)
-
-    ahead, left = X + Y * cos(tj), Y * sin(tj)
-    assert strokes_to_target(formula(ahead, left)) == 4  # each forearm has an outline and a filling
-    assert strokes_to_target(formula(left, ahead)) == 0
-
-
-def test_linear_tells_when_cosine_and_sine_are_none():
-    ahead, left = X + Y * cos(tj), Y * sin(tj)
-    assert "= 1 and 1" in show_linear(formula(ahead, left), LENGTHS, TARGET).get_title()
-    undivided = [entry * (ahead**2 + left**2) for entry in formula(ahead, left)]
-    assert "= 1 and 1" not in show_linear(undivided, LENGTHS, TARGET).get_title()
+def test_the_right_lengths_leave_the_noise_and_those_of_the_data_sheet_do_not():
+    first, second, x, y = measured(MINE).T
+    columns = [(np.cos(t) - np.cos(t).mean(), np.sin(t) - np.sin(t).mean()) for t in (first, first + second)]
+    design = np.array([np.concatenate(column) for column in columns]).T
+    fit = np.linalg.lstsq(design, np.concatenate([x - x.mean(), y - y.mean()]), rcond=None)[0]
+    left = [float(show_misfits(pair, MINE).get_title().split()[3]) for pair in (fit, [MINE.d2, MINE.d3])]
+    assert left[0] < 1 < 5 < left[1]
 
 
 def solved(x, y, z, omega, l2, l3, constant):
@@ -102,27 +90,27 @@ def test_configurations_carry_height_and_angle():
 @pytest.mark.parametrize(
     "show",
     [
-        lambda: show_on_s600(..., SAMPLE),
-        lambda: show_classic([[...] * 4] * 4, SAMPLE),
-        lambda: show_linear([..., ...], LENGTHS, TARGET),
+        lambda: show_on_own_scara(..., "column", SAMPLE),
+        lambda: show_classic([[...] * 4] * 4, "column", SAMPLE),
+        lambda: show_misfits([..., ...], MINE),
         lambda: show_mgi(lambda *pose: None, LENGTHS),
         lambda: show_configurations(..., LENGTHS, TARGET, 0.6),
     ],
 )
 def test_a_blank_shows_a_card(show):
     ax = show()
-    assert not isinstance(ax, Axes3D) and "not attempted yet" in said(ax)
+    assert "not attempted yet" in said(ax)
 
 
 @pytest.mark.parametrize(
     "show",
     [
-        lambda: show_on_s600([[1, 2], [3, 4]], SAMPLE),
-        lambda: show_linear([symbols("q"), 0], LENGTHS, TARGET),
+        lambda: show_on_own_scara([[1, 2], [3, 4]], "column", SAMPLE),
+        lambda: show_misfits([symbols("q"), 0], MINE),
         lambda: show_mgi(lambda *pose: 1 / 0, LENGTHS),
         lambda: show_configurations([(1, 2)], LENGTHS, TARGET, 0.6),
     ],
 )
 def test_an_answer_that_cannot_be_drawn_says_why(show):
     ax = show()
-    assert not isinstance(ax, Axes3D) and "cannot be drawn" in said(ax)
+    assert "cannot be drawn" in said(ax)
