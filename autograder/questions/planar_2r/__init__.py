@@ -118,6 +118,7 @@ QUESTIONS = (
     Question(
         "planar_2r.belt",
         reference=belt_times,
+        depends=("L1", "L2", "belt", "speed", "start"),
         mistakes=(
             mistake(
                 "distance_taken_for_the_way",
@@ -150,6 +151,7 @@ QUESTIONS = (
     Question(
         "planar_2r.table",
         reference=own_rows,
+        depends=("arm",),
         mistakes=(
             classic_table(
                 feedback="**This is the classic Denavit-Hartenberg table.** In the modified form row i holds the link *before* joint i.",
@@ -174,6 +176,7 @@ QUESTIONS = (
     Question(
         "planar_2r.T0E",
         reference=own_pose,
+        depends=("arm",),
         mistakes=(
             mistake(
                 "tool_left_out",
@@ -200,6 +203,7 @@ QUESTIONS = (
     Question(
         "planar_2r.postures",
         reference=own_postures,
+        depends=("arm", "a", "b", "c", "x", "y", "phi"),
         mistakes=(
             posture_missing(),
             with_first_theta1(),
@@ -224,6 +228,7 @@ QUESTIONS = (
         "planar_2r.faults",
         reference=failing,
         places=False,
+        depends=("order",),
         mistakes=(
             mistake(
                 "fourth_quadrant_blamed",

@@ -53,6 +53,7 @@ QUESTIONS = (
     Question(
         "scara_s600.table",
         reference=own_rows,
+        depends=("arm",),
         mistakes=(
             mistake("z_never_turns_over", 0.6, NO_Z_TURNS_OVER, without_half_turn),
             classic_table(
@@ -76,6 +77,7 @@ QUESTIONS = (
     Question(
         "scara_s600.T04",
         reference=own_transform,
+        depends=("arm",),
         mistakes=(
             mistake("z_never_turns_over", 0.5, NO_Z_TURNS_OVER, wrong={"axis": 0}),
             mistake(
@@ -191,6 +193,7 @@ QUESTIONS = (
     Question(
         "scara_s600.classic",
         reference=own_classic,
+        depends=("arm",),
         mistakes=(
             mistake(
                 "modified_table",
@@ -225,6 +228,7 @@ QUESTIONS = (
         "scara_s600.choice",
         reference=fitting,
         places=False,
+        depends=("order", "near", "far", "lift", "mass"),
         mistakes=(
             mistake(
                 "hole_forgotten",
@@ -250,6 +254,7 @@ QUESTIONS = (
         "scara_s600.lengths",
         reference=fitted,
         tolerance=6e-4,  # some three standard deviations of what 30 such points leave open
+        depends=("d2", "d3", "x", "y"),
         mistakes=(
             mistake(
                 "as_on_the_data_sheet",
