@@ -67,7 +67,7 @@ def show_on_arm(pose, arm: Arm, q=None):
     corners = np.array([ax.get_xlim(), ax.get_ylim(), ax.get_zlim()]).T
     size = 0.32 * np.ptp(corners, axis=0).max()  # longer than the axes of the drawing: the names do not meet
     mark_frame(ax, frame, "E", size)
-    fit_3d(ax, [*corners, frame[:3, 3] - size, frame[:3, 3] + size], True)
+    fit_3d(ax, [*corners, frame[:3, 3] - size, frame[:3, 3] + size], True, pad=0.5)
     say_if_not_rigid(ax, frame)
     return ax
 
@@ -89,7 +89,7 @@ def show_points(cloud, arm: Arm):
     ax = draw_arm(arm)
     corners = np.array([ax.get_xlim(), ax.get_ylim(), ax.get_zlim()]).T
     ax.scatter(*points.T, s=2, color=AXIS_COLOURS["x"], alpha=0.5, depthshade=False)
-    fit_3d(ax, np.vstack([corners, points]), True)
+    fit_3d(ax, np.vstack([corners, points]), True, pad=0.5)
     ax.figure.text(0.5, 0.01, f"your {len(points)} points", ha="center")
     return ax
 
