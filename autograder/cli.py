@@ -275,6 +275,9 @@ def _parser() -> argparse.ArgumentParser:
     grade.add_argument(
         "--jobs", type=_positive, metavar="N", help="notebooks that run at the same time (default: one per core)"
     )
+    grade.add_argument(
+        "--scheduler", metavar="ADDRESS", help="run notebooks on the workers of this Dask scheduler, as tcp://host:8786"
+    )
     grade.add_argument("--json", action="store_true", help="print one JSON object per submission instead of the table")
     sandbox = grade.add_argument_group("sandbox")
     sandbox.add_argument("--sandbox", choices=("bwrap", "none"), help="'none' runs students' code unprotected, as you")
@@ -282,6 +285,17 @@ def _parser() -> argparse.ArgumentParser:
         read, metavar = _UNITS[limit.metadata["unit"]]
         text = f"{limit.metadata['help']} (default {_shown(limit)})"
         sandbox.add_argument(f"--{limit.name.replace('_', '-')}", type=read, metavar=metavar, help=text)
+
+    worker = command(
+        "worker",
+        _worker,
+        "Run notebooks for `grade --scheduler`, on this machine, until it is stopped (docs/many_machines.md).",
+        "autograder worker tcp://host:8786",
+    )
+    worker.add_argument("scheduler", metavar="ADDRESS", help="of the Dask scheduler, as tcp://host:8786")
+    worker.add_argument(
+        "--jobs", type=_positive, metavar="N", help="notebooks that run at the same time (default: one per core)"
+    )
 
     watch = command(
         "watch",
@@ -503,7 +517,6 @@ def _collect(options) -> int:
 def _grade(options) -> int:
     from traitlets.config import Config
 
-    from autograder.grading.crew import Crew
     from autograder.grading.pipeline import grade
     from autograder.grading.results import without_notebook
     from autograder.grading.table import changes_table, class_table, progress_bar, summary
@@ -516,7 +529,7 @@ def _grade(options) -> int:
     if options.sandbox == "none":
         print("warning: no sandbox; students' code runs with your rights", file=sys.stderr)
     jobs, results = options.jobs or os.cpu_count() or 1, []
-    with Crew(course, jobs) as crew:
+    with _crew(course, jobs, options.scheduler) as crew:
         for exercise, students in submissions.items():
             with progress_bar(f"grading {exercise}", len(students)) as progress:
                 results += grade(course, exercise, students, crew, options.force, progress)
@@ -529,6 +542,24 @@ def _grade(options) -> int:
         changes_table(results)
         summary(course, results)
     return int(any(result.status == "failed" for result in results))
+
+
+def _crew(course, jobs, scheduler):
+    """Whoever runs and judges: this machine, or the workers of a scheduler."""
+    if scheduler is None:
+        from autograder.grading.crew import Crew
+
+        return Crew(course, jobs)
+    from autograder.grading.cluster import ClusterCrew
+
+    return ClusterCrew(course, jobs, scheduler)
+
+
+def _worker(options) -> int:
+    from autograder.grading.cluster import worker_command
+
+    command = worker_command(options.scheduler, options.jobs or os.cpu_count() or 1)
+    os.execv(command[0], command)
 
 
 def _watch(options) -> int:

@@ -14,6 +14,7 @@ plugins/       nbgrader's converters, preprocessors and exporters, as this cours
 host           prepares a process that runs nbgrader
 course         a course folder with nbgrader opened on it
 crew           threads or processes that restore, run, judge and lay out submissions
+cluster        a crew whose notebooks run on the workers of a Dask scheduler
 pipeline       grades a class: a crew works side by side, one thread writes the gradebook
 results        what was found, one line per submission
 explain        how one verdict came about; changes: whose points moved when graded again

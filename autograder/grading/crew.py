@@ -12,7 +12,7 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from functools import cache, partial
 from multiprocessing.connection import Connection
@@ -27,6 +27,7 @@ from .course import Course, open_course
 from .errors import CourseError, in_words
 from .plugins.autograde import Judged, SubmissionAutograde, Turn, refuse_unless_fit
 from .plugins.feedback import FeedbackPages, Shown
+from .submission.elsewhere import MustRun
 from .submission.execution import InDoubt
 
 FEW = 8
@@ -48,13 +49,15 @@ class Desk:
         self._course.choose(self._exercise)
         refuse_unless_fit(self._autograde)
 
-    def judged(self, student: str, names: Sequence[str], turn: Turn) -> Judged:
+    def judged(
+        self, student: str, names: Sequence[str], turn: Turn, brought: Mapping[str, bytes] | None = None
+    ) -> Judged:
         """See `SubmissionAutograde.judged`."""
         self._course.choose(self._exercise)
         try:
             self._autograde.run_pre_convert_hook()
-            return self._autograde.judged(student, names, turn)
-        except (InDoubt, CourseError):
+            return self._autograde.judged(student, names, turn, brought)
+        except (InDoubt, MustRun, CourseError):
             raise
         except Exception as error:
             raise CourseError(f"could not be judged: {in_words(error)}") from error
@@ -79,6 +82,7 @@ class Crew:
 
     def __init__(self, course: Course, jobs: int) -> None:
         self.jobs = jobs
+        self._hands = jobs
         self._course = course
         self._desk = cache(partial(Desk, course))
         self._threads = ThreadPoolExecutor(jobs)
@@ -96,7 +100,7 @@ class Crew:
 
     def expect(self, count: int) -> None:
         """Get ready for so many submissions."""
-        if self._processes is None and count > FEW and self.jobs > 1:
+        if self._processes is None and count > FEW and self._hands > 1:
             self._start()
 
     def _start(self) -> None:
@@ -104,7 +108,7 @@ class Crew:
         context.set_forkserver_preload([__name__])
         theirs, self._stop = context.Pipe(duplex=False)
         given = (self._course.root, self._course.settings, theirs)
-        self._processes = ProcessPoolExecutor(self.jobs, context, _sit_down, given)
+        self._processes = ProcessPoolExecutor(self._hands, context, _sit_down, given)
 
     def trial(self, exercise: str) -> Future[None]:
         """See `Desk.trial`."""

@@ -183,7 +183,9 @@ class SubmissionAutograde(ChosenStudents, Autograde):
             judged = self.judged(student, self.notebooks)
         self.enter(student, judged)
 
-    def judged(self, student: str, names: Sequence[str], turn: Turn = "both") -> Judged:
+    def judged(
+        self, student: str, names: Sequence[str], turn: Turn = "both", brought: Mapping[str, bytes] | None = None
+    ) -> Judged:
         """Restore, run and judge a submission; nothing is stored.
 
         Parameters
@@ -191,16 +193,18 @@ class SubmissionAutograde(ChosenStudents, Autograde):
         student : str
         names : sequence of str
             Of the exercise's notebooks.
-        turn : str
+        turn, brought
             See `SandboxExecute`.
 
         Raises
         ------
         InDoubt
             In the first turn, if the machine may be to blame for what went wrong.
+        MustRun
+            If a notebook has to run on another machine first.
         """
         folder = self.folder(student)
-        notebooks = {name: self._graded(student, folder / f"{name}.ipynb", turn) for name in names}
+        notebooks = {name: self._graded(student, folder / f"{name}.ipynb", turn, brought) for name in names}
         return Judged(notebooks, self._beside(folder), time_stamp(folder))
 
     def enter(self, student: str, judged: Judged) -> None:
@@ -239,7 +243,7 @@ class SubmissionAutograde(ChosenStudents, Autograde):
             exporter.register_preprocessor(plugin)
         return exporter._preprocessors
 
-    def _graded(self, student: str, path: Path, turn: Turn) -> Graded:
+    def _graded(self, student: str, path: Path, turn: Turn, brought: Mapping[str, bytes] | None) -> Graded:
         """The graded notebook: sanitized, then judged.
 
         nbconvert would copy and validate it around each plug-in; what `submission` gives is valid, and ours alone.
@@ -256,6 +260,7 @@ class SubmissionAutograde(ChosenStudents, Autograde):
             "released": str(released),
             "execution": (self.executions or {}).get((student, name)),
             "turn": turn,
+            "brought": brought,
         }
         nb = submission(path, released)
         for step in self._steps:

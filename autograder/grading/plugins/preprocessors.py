@@ -42,8 +42,9 @@ from ..folders import released_notebook
 from ..inert import shown, terminal_text
 from ..store import StoredNotebook
 from ..submission import trial
-from ..submission.execution import Execution, InDoubt, Mode, confirm, execute
-from ..submission.kept import kept_path
+from ..submission.elsewhere import MustRun, pack, unpack
+from ..submission.execution import Execution, InDoubt, MachineFault, Mode, Work, confirm, execute
+from ..submission.kept import KeptRun, kept_path
 from ..submission.restore import restore
 
 Turn = Literal["first", "alone", "both"]
@@ -71,7 +72,8 @@ class SandboxExecute(NbGraderPreprocessor):
 
     Every field of `autograder.sandbox.Limits` can be configured, for example ``c.SandboxExecute.cell_seconds = 60``.
     ``turn`` in the resources says which run it is: the first, the second and last one, for which nobody else's may run
-    at the same time, or both, one after the other.
+    at the same time, or both, one after the other. Where ``brought`` is in the resources, notebooks run on other machines,
+    and it holds what came back, by name of the notebook.
     """
 
     mode = Enum(("bwrap", "none"), "bwrap", help="Sandbox to run students' code in.").tag(config=True)
@@ -129,13 +131,44 @@ class SandboxExecute(NbGraderPreprocessor):
             return self._run_first(nb, *whose)
         return self.run_alone(nb, *whose)
 
+    def _run_elsewhere(
+        self,
+        nb: NotebookNode,
+        folder: Path,
+        released: Path,
+        student: str,
+        course: Path,
+        turn: Turn,
+        reply: bytes | None,
+    ) -> Execution:
+        """Take what came back from another machine; `MustRun` if nothing is there yet."""
+
+        def run(work: Work) -> KeptRun:
+            if reply is None:
+                raise MustRun(released.stem, pack(work, alone=turn == "alone"))
+            return unpack(reply, work)
+
+        kept = kept_path(course, released.parent.name, student, released.stem)
+        mode = cast(Mode, self.mode)
+        try:
+            execution = execute(nb, (folder, released.parent), student, self.limits, mode, kept=kept, run=run)
+        except MachineFault as fault:
+            raise (InDoubt(str(fault)) if turn == "first" else fault) from None
+        if turn == "first" and execution.doubt:
+            raise InDoubt(execution.doubt)
+        return execution
+
     def preprocess(self, nb: NotebookNode, resources: dict) -> tuple[NotebookNode, dict]:
         ours = resources["autograder"]
         execution: Execution | None = ours.get("execution")
         if execution is None or execution.fingerprint != notebook_record(nb).submission:
             folder, released, course = (Path(ours[name]) for name in ("folder", "released", "root"))
-            run = {"first": self._run_first, "alone": self.run_alone, "both": self._run_both}[ours["turn"]]
-            execution = run(nb, folder, released, resources["nbgrader"]["student"], course)
+            whose = (folder, released, resources["nbgrader"]["student"], course)
+            if (brought := ours.get("brought")) is not None:
+                execution = self._run_elsewhere(nb, *whose, ours["turn"], brought.get(released.stem))
+            else:
+                run = {"first": self._run_first, "alone": self.run_alone, "both": self._run_both}[ours["turn"]]
+                execution = run(nb, *whose)
         for count, index in enumerate(sorted(execution.outputs), 1):
             nb.cells[index].outputs = execution.outputs[index]
             nb.cells[index].execution_count = count

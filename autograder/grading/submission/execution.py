@@ -7,9 +7,9 @@ import hashlib
 import importlib.util
 import json
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property
 from pathlib import Path
 from typing import Literal
 
@@ -67,6 +67,67 @@ class Execution:
     lived: float = 0.0
 
 
+@dataclass(frozen=True)
+class Work:
+    """What has to be run of one submission, with all that is needed for it.
+
+    Attributes
+    ----------
+    nb : NotebookNode
+        The restored notebook, with the kit imported in its check cells.
+    files : dict of str to bytes
+        Contents of the files beside it, by name.
+    student : str
+    limits : Limits
+    mode : str
+        ``"bwrap"`` or ``"none"``.
+    """
+
+    nb: NotebookNode
+    files: dict[str, bytes]
+    student: str
+    limits: Limits
+    mode: Mode
+
+    @cached_property
+    def digest(self) -> str:
+        """Says what is run."""
+        return digest_of_work(self.nb, self.files)
+
+    @property
+    def key(self) -> str:
+        """Says what is run, and with what on this machine."""
+        return f"{self.digest} {conditions(self.limits, self.mode)}"
+
+    def run(self, hidden: tuple[Path, ...] = (), warm: bool = True) -> KeptRun:
+        """Run it here, in a sandbox that does not show the `hidden` folders; `warm` as in `run_notebook`."""
+        sent: dict[int, list] = {}
+
+        def probe(index: int, cell: NotebookNode, outputs: list) -> str | None:
+            check = check_name(cell)
+            arguments = _arguments(check, self.student, self.digest, outputs) if check else None
+            if check is None or arguments is None:
+                return None
+            sent[index] = arguments
+            call = f"answer_probes({question_id(check)!r}, {json.dumps(arguments)!r})"
+            return f"from dhkit.check import answer_probes\n{call}"
+
+        run = run_notebook(
+            self.nb,
+            files=self.files,
+            limits=self.limits,
+            mode=self.mode,
+            followup=probe,
+            hidden=hidden,
+            warm=warm,
+        )
+        return KeptRun(run, sent)
+
+    def fits(self, found: KeptRun) -> bool:
+        """Whether the functions that a run handed in were called with what they would be called with now."""
+        return found.sent == _probes(self.nb, self.student, self.digest, found.run)
+
+
 def execute(
     nb: NotebookNode,
     folders: Iterable[Path],
@@ -76,6 +137,7 @@ def execute(
     hidden: tuple[Path, ...] = (),
     warm: bool = True,
     kept: Path | None = None,
+    run: Callable[[Work], KeptRun] | None = None,
 ) -> Execution:
     """Run the restored notebook `nb` of `student`, or take what was kept of a run of the same.
 
@@ -91,6 +153,8 @@ def execute(
         Whether its kernel may share a parent with others.
     kept : Path, optional
         The file in which a run is kept that nobody doubts (see `kept`).
+    run : callable, optional
+        Runs it, in place of `Work.run` here.
 
     Raises
     ------
@@ -102,33 +166,18 @@ def execute(
         unread = {name: Evidence(None, None, reason, "unreadable") for name in check_cells(nb)}
         return Execution(record.submission, {}, unread)
     folders = list(folders)
-    ready = _with_kit(nb)
     files, left_out = read_folders(folders, limits.disk // 2)
-    work = digest_of_work(ready, files)
-    key = f"{work} {conditions(limits, mode)}"
-    probes = partial(_probes, nb, student, work)
-    if kept is not None and (found := read_kept(kept, key)) is not None and found.sent == probes(found.run):
-        return _execution(nb, found, left_out)
-    sent: dict[int, list] = {}
-
-    def probe(index: int, cell: NotebookNode, outputs: list) -> str | None:
-        check = check_name(cell)
-        arguments = _arguments(check, student, work, outputs) if check else None
-        if check is None or arguments is None:
-            return None
-        sent[index] = arguments
-        call = f"answer_probes({question_id(check)!r}, {json.dumps(arguments)!r})"
-        return f"from dhkit.check import answer_probes\n{call}"
-
-    shut = (*hidden, *folders)
-    run = run_notebook(ready, files=files, limits=limits, mode=mode, followup=probe, hidden=shut, warm=warm)
-    execution = _execution(nb, KeptRun(run, sent), left_out)
+    work = Work(_with_kit(nb), files, student, limits, mode)
+    if kept is not None and (found := read_kept(kept, work.key)) is not None and work.fits(found):
+        return execution_of(nb, found, left_out)
+    found = run(work) if run is not None else work.run((*hidden, *folders), warm)
+    execution = execution_of(nb, found, left_out)
     if kept is not None and execution.doubt is None:
-        keep(kept, key, KeptRun(run, sent))
+        keep(kept, work.key, found)
     return execution
 
 
-def _execution(nb: NotebookNode, found: KeptRun, left_out: list[str]) -> Execution:
+def execution_of(nb: NotebookNode, found: KeptRun, left_out: Sequence[str] = ()) -> Execution:
     """What a run of the restored notebook says of each question."""
     run = found.run
     counts = {index: count for count, index in enumerate(sorted(run.cells), 1)}
@@ -186,7 +235,7 @@ def _with_kit(nb: NotebookNode) -> NotebookNode:
     return ready
 
 
-def _left_out(names: list[str]) -> str | None:
+def _left_out(names: Sequence[str]) -> str | None:
     if not names:
         return None
     return f"{len(names)} files too large for the work folder were left out: {', '.join(names[:_NAMES_SHOWN])}"

@@ -17,6 +17,7 @@ from dataclasses import asdict, dataclass, field
 from importlib import metadata
 from pathlib import Path
 
+import msgspec
 from nbformat.notebooknode import NotebookNode
 
 import dhkit
@@ -27,7 +28,7 @@ from ..files import write_whole
 
 FOLDER = Path("build", "runs")
 """Below the course folder; may be removed at any time, then notebooks run again."""
-_MAX_BYTES = 64 << 20
+MOST_BYTES = 64 << 20
 _LIBRARIES = ("numpy", "sympy", "mpmath", "matplotlib", "ipython", "ipykernel", "ipywidgets")
 
 
@@ -81,28 +82,52 @@ def _software(times: Sequence[tuple[str, int]]) -> str:
     return digest.hexdigest()
 
 
+class _Content(msgspec.Struct, forbid_unknown_fields=True):
+    """What a run is written as; cells as (status, message, outputs, doubtful)."""
+
+    key: str
+    cells: dict[int, tuple[str, str, list[dict], bool]]
+    followups: dict[int, list[dict]]
+    message: str | None
+    starved: bool
+    lived: float
+    sent: dict[int, list]
+
+
+def written(key: str, kept: KeptRun) -> bytes:
+    """A run as JSON."""
+    run = kept.run
+    cells = {index: [cell.status, cell.message, cell.outputs, cell.doubtful] for index, cell in run.cells.items()}
+    content = {
+        "key": key, "cells": cells, "followups": run.followups, "message": run.message, "starved": run.starved,
+        "lived": run.lived, "sent": kept.sent,
+    }  # fmt: skip
+    return json.dumps(content).encode()
+
+
+def read(content: bytes, key: str) -> KeptRun | None:
+    """Return a run from JSON, None if it is none or was not made under this key."""
+    try:
+        found = msgspec.convert(json.loads(content), _Content, str_keys=True)
+    except (ValueError, msgspec.ValidationError, RecursionError):
+        return None
+    if found.key != key:
+        return None
+    cells = {index: CellRun(*what) for index, what in found.cells.items()}  # type: ignore[arg-type]
+    run = Run(cells, found.followups, found.message, found.starved, found.lived)  # type: ignore[arg-type]
+    return KeptRun(run, found.sent)
+
+
 def keep(path: Path, key: str, kept: KeptRun) -> None:
     """Write a run, whole or not at all. Where it cannot be written nothing is lost but time."""
-    cells = {index: [cell.status, cell.message, cell.outputs] for index, cell in kept.run.cells.items()}
-    content = {
-        "key": key, "cells": cells, "followups": kept.run.followups, "message": kept.run.message, "sent": kept.sent
-    }  # fmt: skip
     with suppress(OSError):
         path.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(path, json.dumps(content).encode())
+        write_whole(path, written(key, kept))
 
 
 def read_kept(path: Path, key: str) -> KeptRun | None:
     """Return the run that was kept under this key, None if there is none."""
     try:
-        if path.stat().st_size > _MAX_BYTES:
-            return None
-        content = json.loads(path.read_bytes())
-        if content["key"] != key:
-            return None
-        cells = {int(index): CellRun(*what) for index, what in content["cells"].items()}
-        followups = {int(index): outputs for index, outputs in content["followups"].items()}
-        sent = {int(index): arguments for index, arguments in content["sent"].items()}
-        return KeptRun(Run(cells, followups, content["message"]), sent)
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return None if path.stat().st_size > MOST_BYTES else read(path.read_bytes(), key)
+    except OSError:
         return None
