@@ -191,7 +191,7 @@ export function mountArm(element, state, { onMove = () => {}, ask = null } = {})
     clearTimeout(waiting);
     waiting = null;
     setBranches(found.ghosts);
-    say(found.words, Boolean(found.words));
+    if (found.words || caption.classList.contains("fault")) say(found.words, Boolean(found.words));
     if (again) inquire();
   }
 
