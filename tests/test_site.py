@@ -41,7 +41,7 @@ def test_every_notebook_has_its_place_in_the_contents(notebook):
 
 def test_every_text_has_its_place_in_the_contents():
     pages = {path.relative_to(ROOT).with_suffix("").as_posix() for path in DOCS.glob("*.md")} - {"docs/index"}
-    assert pages | {"CONTRIBUTING", "CHANGELOG"} <= set(entries())
+    assert not (pages | {"CONTRIBUTING", "CHANGELOG"}) - set(entries()), "name it in a toctree of docs/index.md"
 
 
 def test_the_configuration_can_be_read_and_names_files_that_are_there(monkeypatch):
@@ -64,6 +64,11 @@ def test_an_exercise_is_a_statement_without_outputs_for_answers_that_are_not_the
     silent = {cell["id"] for cell in notebook["cells"] if "remove-output" in cell["metadata"].get("tags", ())}
     assert {"scara-table-answer", "picture-table", "scara-table"} <= silent
     assert not silent & {"imports", "figure-side", "figure-top"}
+
+
+def test_pictures_of_the_readme_stand_alone():
+    """MyST takes them for pictures, and brings their files along, only where no other HTML is around them."""
+    assert elsewhere.linked('<p>\n<img src="docs/a.png" alt="a">\n</p>\n', ROOT) == '<img src="/docs/a.png" alt="a">\n'
 
 
 def test_links_of_the_readme_find_the_pages():

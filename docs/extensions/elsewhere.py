@@ -9,6 +9,7 @@ from sphinx.application import Sphinx
 README = re.compile(r"\]\((?:\.\./)*README\.md\)")
 FOLDER = re.compile(r"\[([^]]+)\]\(([\w./-]+/)\)")
 RELATIVE = re.compile(r'(\]\(|<img src=")(?=[\w.-]+(?:/[\w.-]+)*[)"])')
+AROUND_PICTURES = re.compile(r"^</?p(?: [^>]*)?>\n", re.M)
 LECTURE = re.compile(r"`course/(\w+)\.ipynb`")
 EXERCISE = re.compile(r"`exercises/(\w+)/`")
 
@@ -21,7 +22,7 @@ def title(notebook: Path) -> str:
 
 def linked(text: str, root: Path) -> str:
     """A text of the repository's root: its links stand from there, names of notebooks in it lead to them."""
-    text = RELATIVE.sub(r"\1/", text)
+    text = RELATIVE.sub(r"\1/", AROUND_PICTURES.sub("", text))
     text = LECTURE.sub(lambda name: f"[{title(root / f'course/{name[1]}.ipynb')}](/course/{name[1]}.ipynb)", text)
     return EXERCISE.sub(r"[\1](/exercises/\1/\1.ipynb)", text)
 

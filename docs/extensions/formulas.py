@@ -34,11 +34,17 @@ def block(self, node: nodes.math_block) -> None:
     raise nodes.SkipNode
 
 
+def typeset(found: re.Match) -> str:
+    """What stands between two dollars in HTML, as MathML if it is a formula."""
+    made = formula(unescape(found[1]))
+    return made if made.startswith("<math") else found[0]
+
+
 def within_outputs(app: Sphinx, tree: nodes.document, page: str) -> None:
     """Formulas in the HTML that cells display, which a notebook's own page would typeset."""
     for node in list(tree.findall(nodes.raw)):
         if "text_html" in node.parent.get("classes", ()) and "<script" not in node.astext():
-            text = DOLLARS.sub(lambda found: formula(unescape(found[1])), node.astext())
+            text = DOLLARS.sub(typeset, node.astext())
             node.parent.replace(node, nodes.raw("", text, format="html"))
 
 
