@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 import sympy
 
-from autograder.reference import robots, two_link_determinant
+from autograder.reference import robots
 from dhkit.geometry import lies_between, unit_vector
 from dhm.equations import type8
 from dhm.workspace import RRArm, planar_points, rr_grid
@@ -21,9 +21,6 @@ t1i, t1j, t2i, t2j = sympy.symbols("t1i t1j t2i t2j")
 HAND = list(robots.PLANAR_2R.table.symbolic_forward()[:2, 3])
 POINT = [entry.subs({t1: t1i, t2: t2j}) for entry in HAND]
 ABSOLUTE_POINT = [L1 * f(t1i) + L2 * f(t2j) for f in (sympy.cos, sympy.sin)]
-DETERMINANT = two_link_determinant(L1, L2, t2)
-JACOBIAN = sympy.Matrix(HAND).jacobian([t1, t2])
-PRODUCTS_ADDED = JACOBIAN[0, 0] * JACOBIAN[1, 1] + JACOBIAN[0, 1] * JACOBIAN[1, 0]
 
 # ---------------------------------------------------------------- the student's own arm
 
@@ -62,6 +59,18 @@ def cloud(mine, shape="grid", ranges="own") -> list[list[float]]:
     else:
         points = rr_grid(arm.l1, arm.l2, q1, q2)
     return points.reshape(-1, 2).tolist()
+
+
+def pallet(mine, *, stops=True, corners=True, depth=True) -> list[float]:
+    """The least and the greatest distance of the pallet's near edge from the base, so that every place on it is reached.
+
+    The elbow's `stops`, the far `corners`, or the `depth` of the pallet may be overlooked.
+    """
+    arm = own_arm(mine)
+    ends = np.radians([mine.t2_max, mine.t2_min]) if stops else np.array([np.pi, 0.0])
+    least, most = np.abs(arm.l1 + arm.l2 * np.exp(1j * ends))
+    aside = mine.wide / 2 if corners else 0.0
+    return [float(least), float(np.sqrt(most**2 - aside**2) - (mine.deep if depth else 0.0))]
 
 
 def area(mine, turn="own", sheet="integrated") -> float:

@@ -61,7 +61,15 @@ from .tables import (
     show_table,
 )
 from .transforms import show_classic_matrix, show_own_dhm, show_parameters, show_point, show_walk, show_way_to_part
-from .workspace import show_area, show_cloud, show_count, show_point_function, show_reach_range, show_section
+from .workspace import (
+    show_area,
+    show_cloud,
+    show_count,
+    show_pallet,
+    show_point_function,
+    show_reach_range,
+    show_section,
+)
 
 __all__ = [
     "RX90",
@@ -107,6 +115,7 @@ __all__ = [
     "show_own_dhm",
     "show_own_forward",
     "show_own_turns",
+    "show_pallet",
     "show_parallel_axes",
     "show_parameters",
     "show_pen_inverse",

@@ -185,3 +185,34 @@ def show_section(section, values: dict[str, float]):
     around = [(values[name] - 0.02, values[name] + 0.02) for name in ("t2", "t3")]
     ax = draw_section((values["L1"], values["L2"]), around, (values["t2"], values["t3"]), names=False)
     return mark_target(ax, at, "your result")
+
+
+@own_result
+def show_pallet(distances, mine):
+    """Show a pallet at two distances from the base of one's own arm, and what the arm reaches.
+
+    Parameters
+    ----------
+    distances : 2 numbers [nearest, farthest], in metres
+        Of the pallet's near edge from the base.
+    mine : mapping
+        L1, L2, wide, deep in metres; t2_min, t2_max in degrees.
+
+    Returns
+    -------
+    matplotlib Axes
+        The first pallet touches the inner circle, the second one the outer.
+    """
+    found = numbers(distances, "pallet", (2,), {})
+    ax = plt.subplots(figsize=(5.2, 4.4))[1]
+    ax.set_aspect("equal")
+    half_turn = np.linspace(0, np.pi, 120)
+    for angle, dashes in ((mine["t2_max"], (0, (5, 2))), (mine["t2_min"], "-")):
+        radius = abs(mine["L1"] + mine["L2"] * np.exp(1j * np.radians(angle)))
+        ax.plot(radius * np.cos(half_turn), radius * np.sin(half_turn), color=INK, lw=1.2, ls=dashes)
+    for near, dashes in zip(found, ((0, (5, 2)), "-")):
+        corner = (-mine["wide"] / 2, near)
+        ax.add_patch(Rectangle(corner, mine["wide"], mine["deep"], fill=False, ec=AXIS_COLOURS["x"], lw=1.6, ls=dashes))
+    ax.plot(0, 0, "o", color=INK)
+    ax.set(xlabel="x (m)", ylabel="y (m)")
+    return ax
