@@ -197,6 +197,15 @@ def test_a_path_does_not_leap_by_full_turns():
     assert limited.state()["path"] == [[3.0, 0], [-3.1, 0.2]]
 
 
+def test_a_posture_that_misses_the_hand_is_named(watched):
+    scene = Scene(PLANAR, inverse=lambda pose: [both_elbows(pose)[0], [0.2, 0.6]])
+    scene._repr_mimebundle_()
+    scene._widget.set_state({"asked": {"number": 1, "q": [0.2, 0.5]}})
+    away = 2 * 0.4 * np.sin(0.05)
+    assert scene._widget.answer["words"] == f"posture 2 misses the ring by {away:.3f} m"
+    assert len(scene._widget.answer["ghosts"]) == 2
+
+
 def test_sliders_have_round_values_within_the_limits():
     joints = Scene(SCARA, LENGTHS, limits=[(-1, 1), (-1, 1), (0.0, 0.25), (-1, 1)]).arm.joints
     assert (joints[2].low, joints[2].high, joints[2].step) == (0.0, 0.25, 0.005)

@@ -15,6 +15,7 @@ from .live import Live
 MOST_GHOSTS = 64
 MOST_POINTS = 20_000
 MOST_IN_CLOUD = 5_000
+_CLOSE = 5e-4  # metres: a posture that comes so near has its hand in the place
 _LONGEST = 200  # letters of what is said of a student's function
 
 
@@ -222,7 +223,7 @@ class Scene(Live):
         self._widget.answer = {"number": change.new["number"], "ghosts": ghosts, "words": words}
 
     def _branches(self) -> tuple[list[list[float]], str]:
-        """What the student's function gives for the hand as it stands, and in words why nothing comes of it."""
+        """What the student's function gives for the hand as it stands, and in words what is wrong with it."""
         pose = self.arm.hands(np.array(self._q))
         try:
             found = self._inverse(pose.copy())  # type: ignore[misc]
@@ -231,7 +232,11 @@ class Scene(Live):
             rows = self._rows(found, "inverse", MOST_GHOSTS)
         except Exception as error:  # whatever may go wrong in it
             return [], f"inverse: {error or type(error).__name__}"[:_LONGEST]
-        return rows, "" if rows else "inverse: no posture for this place"
+        if not rows:
+            return [], "inverse: no posture for this place"
+        away = np.linalg.norm(self.arm.hands(np.array(rows))[:, :3, 3] - pose[:3, 3], axis=1)
+        worst = int(away.argmax())
+        return rows, f"posture {worst + 1} misses the ring by {away[worst]:.3f} m" if away[worst] > _CLOSE else ""
 
     def _unwound(self, path: list[list[float]]) -> list[list[float]]:
         """A path without the leaps by full turns that inverse functions make."""
