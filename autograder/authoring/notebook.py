@@ -281,8 +281,9 @@ def _transform(exercise: _Exercise, number: int) -> list[NotebookNode]:
         "the drawing."
     )
     worked = f"T0E = (step({', '.join(map(str, rows[0][1:]))}) * U1).expand()"
-    if len(rows) == 1:
-        worked = f"{_STEP.partition('T12')[0]}T0E = step({', '.join(map(str, rows[0][1:]))})"
+    if not asked.has_second_joint(exercise.arm):
+        factors = " * ".join(f"step({', '.join(map(str, row[1:]))})" for row in rows)
+        worked = f"{_STEP.partition('T12')[0]}T0E = {factors}"
     return [
         _text("q-T0E", statement),
         *_answer(exercise, asked.TRANSFORM, "T0E = ...  # 4x4 sympy Matrix", worked, "show_on_arm(T0E, arm);"),

@@ -56,9 +56,14 @@ def _about_table(exercise: str, arm: Described) -> Iterable[Question]:
     yield Question(f"{exercise}.{TABLE}", rows, _telling(rows, _mistakes_in_table(rows), _moved_by), partial=0.6)
 
 
+def has_second_joint(arm: Described) -> bool:
+    """Whether row 2 is a joint's, so that its matrix can be asked for."""
+    return len(arm.table.rows) > 1 and bool(arm.table.rows[1].variable.free_symbols & set(arm.table.joints))
+
+
 def _about_matrices(exercise: str, arm: Described) -> Iterable[Question]:
     rows, factors, recursion = list_rows(arm.table), arm.table.transforms(), arm.table.recursion()
-    if len(rows) > 1:
+    if has_second_joint(arm):
         yield Question(f"{exercise}.{MATRIX}", factors[1], _telling(factors[1], _mistakes_in_matrix(rows[1])))
         yield Question(
             f"{exercise}.{RECURSION}",
@@ -179,7 +184,7 @@ def _box(points: np.ndarray) -> np.ndarray:
 
 
 def _about_singularities(exercise: str, arm: Described) -> Iterable[Question]:
-    if len(singular.configurations(arm)) == 4:
+    if singular.configurations(arm):
         ranks = partial(singular.ranks, arm)
         full = min(singular.task_rows(arm), len(arm.joints))
         mistakes = [

@@ -19,17 +19,16 @@ _MOST_TERMS = 60
 
 @cache
 def configurations(arm: Described) -> tuple[tuple[sympy.Expr, ...], ...]:
-    """Four configurations of which some are singular, where the arm has such: joint values, quarter turns exact."""
+    """Four configurations of which some are singular, where the arm has such: joint values, quarter turns exact.
+
+    None of an arm without turning joints, which has the same freedoms everywhere.
+    """
     plain = tuple(sympy.Rational(str(value)) for value in standing(arm))
     singular, regular = _with_quarter_turns(arm, plain)
-    chosen = [
-        *singular[:2],
-        *regular[:2],
-        plain,
-        tuple(-value if i in turning(arm) else value for i, value in enumerate(plain)),
-    ]
+    mirrored = tuple(-value if i in turning(arm) else value for i, value in enumerate(plain))
+    chosen = list(dict.fromkeys([*singular[:2], *regular[:2], plain, mirrored]))[:4]
     order = np.random.default_rng(len(arm.table.rows)).permutation(4)
-    return tuple(chosen[:4][i] for i in order)
+    return tuple(chosen[i] for i in order) if len(chosen) == 4 else ()
 
 
 def _with_quarter_turns(arm: Described, plain: tuple) -> tuple[list[tuple], list[tuple]]:
