@@ -10,13 +10,13 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
+pytest.importorskip("sphinx_book_theme", reason="the site's packages are not installed: make setup")
 sys.path[:0] = [str(DOCS), str(DOCS / "extensions")]
 
 import check_links  # noqa: E402
 import elsewhere  # noqa: E402
 import statements  # noqa: E402
 
-pytest.importorskip("sphinx_book_theme")
 TOCTREE = re.compile(r"```\{toctree\}\n((?:.|\n)*?)```")
 NOTEBOOKS = [*ROOT.glob("course/*.ipynb"), *ROOT.glob("exercises/*/*.ipynb")]
 
