@@ -76,7 +76,11 @@ def grade(
         if status[student] == "unchanged":
             progress(student)
     to_grade = [student for student, what in status.items() if what == "graded"]
-    earlier = {student: given(graded_notebooks(course, student, exercise)) for student in to_grade if student in stored}
+    earlier = {
+        student: given(graded_notebooks(course, student, exercise, outputs=False))
+        for student in to_grade
+        if student in stored
+    }
     if to_grade:
         _grade(course, exercise, names, to_grade, crew, failures, progress)
     stored = _stored(course, exercise)
