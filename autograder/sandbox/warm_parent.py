@@ -11,6 +11,7 @@ the first process inside, which takes all others with it when it ends, and the k
 
 import ctypes
 import fcntl
+import functools
 import gc
 import importlib
 import io
@@ -36,6 +37,7 @@ GET_FLAGS, SET_FLAGS, UP = 0x8913, 0x8914, 1
 REPORT = 3  # descriptor of a child that it reports on; the kernel's sockets follow
 HIGH = 64  # a descriptor above all that is in use
 MESSAGE = 200
+FORMULAS = 500  # pictures of a few kilobytes
 
 
 def call(function, *arguments):
@@ -58,6 +60,7 @@ def warm_up(modules):
     """
     for module in modules:
         importlib.import_module(module)
+    share_formulas()
     import numpy
     import sympy
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -79,6 +82,16 @@ def warm_up(modules):
     sympy.latex(product), str(product), product.subs({a: 0.1, b: 0.2, c: 0.3}).evalf()
     sympy.lambdify((a, b, c), product)(0.1, 0.2, 0.3)
     numpy.linalg.inv(numpy.eye(3))
+
+
+def share_formulas():
+    """Let all figures of a kernel use each other's formulas: Matplotlib would lay out every label anew for each figure."""
+    from matplotlib import mathtext
+    from matplotlib.backends import backend_agg
+
+    backend_agg.MathTextParser = functools.cache(mathtext.MathTextParser)
+    laid_out = mathtext.MathTextParser._parse_cached
+    mathtext.MathTextParser._parse_cached = functools.lru_cache(FORMULAS)(laid_out.__wrapped__)
 
 
 def shared_bytes():

@@ -1,6 +1,6 @@
 """Notebooks per minute and processor time per notebook: our grader, stock nbgrader, and the bare cells, in one run.
 
-    .venv/bin/python tests/benchmarks/grading.py [--exercise planar_2r] [--notebooks 8] [--jobs 1 2 4]
+    .venv/bin/python tests/benchmarks/grading.py [--exercise planar_2r] [--notebooks 16] [--jobs 1 2 4]
 
 A class hands in the instructor's own answers, every student with a name of his own. Ours is ``autograder grade`` with
 feedback pages, from start to end of the command, notebooks run in the sandbox; a second run after ``--force`` judges what
@@ -17,7 +17,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
@@ -34,24 +34,36 @@ ROOT = Path(__file__).resolve().parents[2]
 STOCK = 'c = get_config()\nc.CourseDirectory.source_directory = "solutions"\nc.ClearSolutions.code_stub = {"python": "..."}\n'
 
 
-# `autograder` with what its kernels took said at the end: they are killed, and nobody waits for what is killed with them.
+# `autograder`, which says at its end what it and all its processes took. Kernels are killed, and nobody waits for what is killed
+# with them: each is looked at before. Processes of the crew import this file, too, so theirs are counted like those of threads.
 OURS = """
-import sys
+import os, sys, time
+import psutil
 from autograder import cli
+from autograder.grading.crew import Crew
 from autograder.sandbox.provisioner import SandboxProvisioner as Provisioner
 
-total, release = 0.0, Provisioner.release
+release, leave = Provisioner.release, Crew.__exit__
+
+def note(seconds):
+    with open(os.environ["KERNELS"], "a") as file:
+        print(seconds, file=file)
 
 def counted(self):
-    global total
     if self.process is not None:
-        total += self.watch.spent_now().processor
+        note(self.watch.spent_now().processor)
     release(self)
 
-Provisioner.release = counted
-code = cli.main(sys.argv[1:])
-print(total)
-sys.exit(code)
+def looked_at(self, *error):
+    for process in psutil.Process().children(recursive=True):
+        note(sum(process.cpu_times()[:2]))
+    leave(self, *error)
+
+Provisioner.release, Crew.__exit__ = counted, looked_at
+if __name__ == "__main__":
+    code = cli.main(sys.argv[1:])
+    note(time.process_time())
+    sys.exit(code)
 """
 
 
@@ -64,21 +76,24 @@ class Spent:
 
 
 def spent(*commands, cwd):
-    """What commands take, one after the other, with all that they start and wait for, and what the last one prints."""
+    """What commands take, one after the other, with all that they start and wait for."""
     before, start = resource.getrusage(resource.RUSAGE_CHILDREN), perf_counter()
-    said = ""
     for command in commands:
-        said = subprocess.run(command, cwd=cwd, check=True, capture_output=True, text=True).stdout
+        subprocess.run(command, cwd=cwd, check=True, capture_output=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     processor = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return Spent(perf_counter() - start, processor), said
+    return Spent(perf_counter() - start, processor)
 
 
 def graded(course, exercise, jobs):
-    """What ``autograder grade`` takes, its kernels included."""
-    words = [sys.executable, "-c", OURS, "grade", exercise, "--force", "--jobs", str(jobs)]
-    found, said = spent(words, cwd=course)
-    return replace(found, processor=found.processor + float(said.split()[-1]))
+    """What ``autograder grade`` takes, with all of its processes."""
+    script, kernels = course / "counted.py", course / "kernels.txt"
+    script.write_text(OURS)
+    kernels.write_text("")
+    start = perf_counter()
+    words = [sys.executable, script, "grade", exercise, "--force", "--jobs", str(jobs)]
+    subprocess.run(words, cwd=course, check=True, capture_output=True, env={**os.environ, "KERNELS": str(kernels)})
+    return Spent(perf_counter() - start, sum(map(float, kernels.read_text().split())))
 
 
 def program(name):
@@ -117,7 +132,7 @@ def floor(folder, exercise):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--exercise", default="planar_2r")
-    parser.add_argument("--notebooks", type=int, default=8)
+    parser.add_argument("--notebooks", type=int, default=16)
     parser.add_argument("--jobs", type=int, nargs="+", default=[1, 2, 4])
     options = parser.parse_args()
     exercise, count = options.exercise, options.notebooks
@@ -128,11 +143,11 @@ def main():
         spent([program("autograder"), "release", exercise, "--home", "form"], cwd=ours)
         spent([program("nbgrader"), "generate_assignment", exercise, "--create", "--force"], cwd=stock)
         commands = ([program("nbgrader"), command, exercise] for command in ("autograde", "generate_feedback"))
-        rows = {"stock nbgrader": spent(*commands, cwd=stock)[0]}
+        rows = {"stock nbgrader": spent(*commands, cwd=stock)}
         for jobs in options.jobs:
             shutil.rmtree(ours / "build", ignore_errors=True)
             rows[f"ours, {jobs} job{'s' if jobs > 1 else ''}"] = graded(ours, exercise, jobs)
-        rows["ours, judged again"] = graded(ours, exercise, 1)
+        rows["ours, judged again"] = graded(ours, exercise, max(options.jobs))
         bare = floor(ours, exercise)
     title = f"{count} right notebooks of {exercise}; {os.cpu_count()} cores, Python {platform.python_version()}"
     table = Table(title=f"{title}; the bare cells, warm: {bare:.2f} s of processor time", title_justify="left")
