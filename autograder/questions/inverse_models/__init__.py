@@ -79,13 +79,13 @@ QUESTIONS = (
         mistakes=(
             mistake(
                 "wrist_not_counted",
-                0.6,
+                0.4,
                 "**Case d: these are the configurations of the first three joints alone.** The wrist has two for each of them.",
                 change_count(3, lambda n: n // 2),
             ),
             mistake(
                 "reach_not_tested",
-                0.6,
+                0.25,
                 "**Case b: is the point within reach at all, in front and over the back?** Compare its distance from axis 2, on either "
                 "side, with upper arm and forearm.",
                 change_count(1, lambda n: 4),
