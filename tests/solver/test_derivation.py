@@ -39,6 +39,9 @@ OWN = {
     "gantry with wrist": Robot(DHTable([*GANTRY, *WRIST])),
     "cylindrical": Robot(DHTable([(0, 0, 0, 0, None), (1, 0, 0, None, 0), (1, 0, -HALF, None, 0)])),
     "spherical": Robot(DHTable([(0, 0, 0, 0.3, None), (0, 0, -HALF, 0, None), (1, 0, HALF, None, 0)])),
+    "four turns": Robot(
+        DHTable([(0, 0, 0, 0, None), (0, 0.02, HALF, 0, None), (0, 0.15, np.pi, 0, None), (0, 0.18, np.pi, 0, None)])
+    ),
     "oblique": Robot(DHTable([(0, 0, 0, 0, None), (0, 0, 0.9, 0.1, None), (1, 0, HALF, None, 0)])),
 }
 KINDS = {
@@ -59,6 +62,7 @@ SLOW_KINDS = {
     "UR5e": (2, 2, 3, 3, 8),
     "Stanford": (2, 4, 2, 3, 3),
     "gantry with wrist": (1, 1, 1, 2, 3, 3),
+    "four turns": (3, 3, 8),
 }
 CASES = [*KINDS.items(), *(pytest.param(*case, marks=pytest.mark.slow) for case in SLOW_KINDS.items())]
 

@@ -311,6 +311,8 @@ class Closure:
         y = sp.Matrix([-each[1] for each in found])
         if not (self._turns_only(A) and self._turns_only(B)):
             return None
+        if all(self._vanishes(entry) for entry in y):
+            return None  # both say the same: how the two angles differ
         one, two = symbols
         a, b = (self.angles.sums.get(symbol, symbol) for symbol in symbols)
         N = A.T * B
