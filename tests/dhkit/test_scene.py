@@ -198,7 +198,7 @@ def test_a_path_does_not_leap_by_full_turns():
 
 
 def test_a_posture_that_misses_the_hand_is_named(watched):
-    scene = Scene(PLANAR, inverse=lambda pose: [both_elbows(pose)[0], [0.2, 0.6]])
+    scene = Scene(PLANAR, q=[0.2, 0.5], inverse=lambda pose: [both_elbows(pose)[0], [0.2, 0.6]])
     scene._repr_mimebundle_()
     scene._widget.set_state({"asked": {"number": 1, "q": [0.2, 0.5]}})
     away = 2 * 0.4 * np.sin(0.05)
