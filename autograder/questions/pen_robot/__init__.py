@@ -33,6 +33,7 @@ from .model import (
     name_place,
     p1,
     pair_residual,
+    pen_for_circle,
     read_twist_as_length,
     t1,
     t2,
@@ -166,6 +167,25 @@ QUESTIONS = (
                 0.7,
                 "**The two radii are exchanged.** The large one comes first.",
                 lambda circles: circles[::-1],
+            ),
+        ),
+    ),
+    Question(
+        "pen_robot.pen",
+        reference=pen_for_circle,
+        depends=("L1", "h2", "L2", "drop", "radius"),
+        mistakes=(
+            mistake(
+                "side_forgotten",
+                0.4,
+                "**The radius is not rho.** The plane of the pen passes beside axis 1, at the distance H = h2 + L2.",
+                wrong={"side": False},
+            ),
+            mistake(
+                "sheet_forgotten",
+                0.5,
+                "**The sheet lies {drop} m below axis 2.** The pen must go ahead *and* down.",
+                wrong={"sheet": False},
             ),
         ),
     ),

@@ -194,3 +194,13 @@ def trace_residual(q, *point, mine) -> np.ndarray:
     tips = own_robot(mine).forward(q)[:, :3, 3]
     beyond = np.maximum(np.abs(q[:, 1:]) - STOP, 0).sum(axis=1)
     return np.linalg.norm(tips - np.array(point), axis=-1) + np.where(beyond > 1e-9, beyond, 0)
+
+
+def pen_for_circle(mine, *, side=True, sheet=True) -> list[float]:
+    """[p1, small]: the pen whose large circle on the student's sheet has the student's radius, and its small circle.
+
+    The distance of the pen's plane from axis 1, or the depth of the sheet, may be forgotten.
+    """
+    beside = mine.h2 + mine.L2 if side else 0.0
+    ahead = np.sqrt(mine.radius**2 - beside**2) - mine.L1
+    return [float(np.hypot(ahead, mine.drop if sheet else 0.0)), float(np.hypot(mine.L1 - ahead, beside))]
