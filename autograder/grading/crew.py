@@ -1,8 +1,8 @@
 """Who restores, runs, judges and lays out: threads of this process for a few submissions, processes for a class.
 
 What is done to one submission is the same everywhere (`Desk`): nothing of it touches the gradebook, which the caller
-alone writes. Processes start as copies of one that has imported what they need, stay for all exercises of a command,
-and end with it, however it ends: their kernels with them.
+alone writes. Processes start as copies of one that has imported what they need, have a warm parent of kernels each (some
+200 MB), stay for all exercises of a command, and end with it, however it ends: their kernels with them.
 """
 
 from __future__ import annotations
