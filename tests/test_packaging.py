@@ -5,6 +5,7 @@ import re
 import sys
 import tomllib
 from importlib import metadata
+from itertools import chain
 from pathlib import Path
 
 import pytest
@@ -22,8 +23,9 @@ OURS = {"autograder", "dhkit", "dhm"}
 
 
 def declared(file):
-    """Name -> requirement of the dependencies in a pyproject.toml."""
-    lines = tomllib.loads((ROOT / file).read_text())["project"]["dependencies"]
+    """Name -> requirement of the dependencies in a pyproject.toml, the optional ones too."""
+    project = tomllib.loads((ROOT / file).read_text())["project"]
+    lines = [*project["dependencies"], *chain.from_iterable(project.get("optional-dependencies", {}).values())]
     return {canonicalize_name(found.name): found for found in map(Requirement, lines)}
 
 
