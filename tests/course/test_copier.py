@@ -297,7 +297,8 @@ def wanted_shape(form, shape: tuple[int, ...] | None) -> bool:
 
 def handed_in(question: Question, found: tuple[Find, ...]) -> Iterator[tuple[object, str]]:
     """Everything that the copier hands in for a question, each once, and where it is from."""
-    form, seen = question.form, set()
+    form = question.form
+    seen: set[object] = set()
     if form.kind == "function":
         for one in found:
             if is_function(one.value) and id(one.value) not in seen and fits(question, one.value):
@@ -353,20 +354,24 @@ def earned(exercise: str) -> dict[str, tuple[float, float, str]]:
 
 def told(exercise: str) -> str:
     lines = [f"{id}: {got:.2f} of {most:g} {where}" for id, (got, most, where) in earned(exercise).items() if got]
-    return "\n".join([f"{exercise}: {total(exercise, 0):.1f} of {total(exercise, 1):g}", *lines])
+    got, most = total(exercise)
+    return "\n".join([f"{exercise}: {got:.1f} of {most:g}", *lines])
 
 
-def total(exercise: str, which: int) -> float:
-    return sum(row[which] for row in earned(exercise).values())
+def total(exercise: str) -> tuple[float, float]:
+    """What the copier earns for an exercise, and what it is worth."""
+    rows = earned(exercise).values()
+    return sum(got for got, _, _ in rows), sum(most for _, most, _ in rows)
 
 
 @pytest.mark.parametrize("exercise", exercises())
 def test_the_copier_earns_a_third_of_no_exercise(exercise):
-    assert total(exercise, 0) <= OF_AN_EXERCISE * total(exercise, 1), told(exercise)
+    got, most = total(exercise)
+    assert got <= OF_AN_EXERCISE * most, told(exercise)
 
 
 def test_the_copier_earns_a_quarter_of_the_course():
-    got, most = (sum(total(exercise, which) for exercise in exercises()) for which in (0, 1))
+    got, most = (sum(column) for column in zip(*map(total, exercises())))
     assert got <= OF_THE_COURSE * most, "\n".join(map(told, exercises()))
 
 
