@@ -112,7 +112,7 @@ def finds(lecture: str) -> tuple[Find, ...]:
 
 def is_function(value: object) -> bool:
     """Whether a value is a function that a lecture or the kit has written, and not a library."""
-    return inspect.isfunction(value) and value.__module__.partition(".")[0] not in LIBRARIES
+    return inspect.isfunction(value) and (value.__module__ or "").partition(".")[0] not in LIBRARIES
 
 
 # ---------------------------------------------------------------- values and their parts
