@@ -15,7 +15,7 @@ def test_both_of_two_mistakes_are_told():
         StoredNotebook("1", 0.0),
     )
     assert row["line"] == "**The first one.** See the table. **The second one.** See the drawing."
-    assert (row["title"], row["note"], row["percent"]) == ("From the base to the hand, 0T4", "a+b", 33)
+    assert (row["title"], row["note"], row["percent"]) == ("The SCARA of the lecture, 0T4", "a+b", 33)
 
 
 def cell(name, **marks):
@@ -42,7 +42,7 @@ def rows(*, manual=None, extra=None, comment=None):
 
 
 def test_the_table_adds_up_with_a_bonus_and_says_what_was_given_by_hand():
-    title = "From the base to the hand, 0T4"
+    title = "The SCARA of the lecture, 0T4"
     assert rows() == [(title, 2, "")]
     assert rows(manual=1.5) == [(title, 1.5, "*These points were given by hand.*")]
     assert rows(extra=1.5) == [(title, 2, ""), ("Open problem (bonus)", 1.5, "")]
