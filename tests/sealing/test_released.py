@@ -37,8 +37,9 @@ def test_the_sealed_file_is_current(exercise):
             place = here.place(which)
             for one in sealables(question, which, worked.get(question.id, "")):
                 lock = lock_of(file, question.id, one.part, here.personal, place, here.sight.tolerance)
-                opened = next(open_envelopes(here, here.envelopes[place], lock, one.numbers), None)
-                assert opened is not None and opened.said == one.said, (question.id, one.said.note)
+                # Answers that are close together lie in one cell: their numbers tell them apart.
+                opened = open_envelopes(here, here.envelopes[place], lock, one.numbers)
+                assert one.said in [each.said for each in opened], (question.id, one.said.note)
 
 
 def test_all_sealed_files_together_are_small():
