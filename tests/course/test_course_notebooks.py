@@ -152,7 +152,9 @@ def test_an_open_problem_is_graded_by_hand_as_a_bonus(path):
     for problem in open_problems(read(path)):
         assert problem.cell_type == "markdown" and nbgrader(problem)["points"] == 0
         assert nbgrader(problem)["grade_id"] == f"{path.stem}-open", "one in each notebook"
-        assert "marking" in problem.source.lower(), "the solution shows a model answer and a marking key"
+        assert "**Marking key** (4 bonus marks)" in problem.source, (
+            "a model answer and a marking key, which weighs the same everywhere"
+        )
 
 
 @pytest.mark.parametrize("path", SOLUTIONS, ids=name)
