@@ -46,6 +46,8 @@ SECONDS = 1
 """Of processor time, for one call of a lecture's function with arguments that are not its own."""
 MOST_ORDERS = 24
 """Orders in which symbols are tried; more of them nobody would try by hand."""
+MOST_JUDGED = 40
+"""Answers in symbols to one question: those that agree most with the right one."""
 MOST_ENTRIES = 64
 """Of a list or matrix; clouds of points may have more."""
 
@@ -317,6 +319,27 @@ def handed_in(question: Question, found: tuple[Find, ...]) -> Iterator[tuple[obj
                         yield answer, one.where
 
 
+def likeliest(question: Question, answers: Iterator[tuple[object, str]]) -> list[tuple[object, str]]:
+    """Of answers in symbols those that are right in most entries at one point: the judge takes its time for each."""
+    if not getattr(question.form, "symbols", ()):
+        return list(answers)
+    point = {sympy.Symbol(name): values[0] for name, values in question.samples.items()}
+    right = values_at(question.answer(STUDENT), point)
+    agreeing = lambda one: -int(np.isclose(values_at(one[0], point), right).sum())  # noqa: E731
+    return sorted(answers, key=agreeing)[:MOST_JUDGED]
+
+
+def values_at(answer: object, point: Mapping) -> np.ndarray:
+    """The entries of an answer at a point, one after the other; nan where there is no number."""
+    values = []
+    for entry in flat(nested(answer)):
+        try:
+            values.append(float(sympy.sympify(entry).xreplace(point)))
+        except (TypeError, ValueError):
+            values.append(np.nan)
+    return np.array(values)
+
+
 def share(question: Question, answer: object) -> float:
     """The share of the points that an answer earns; none where it cannot be handed in."""
     with contextlib.suppress(ValueError, TypeError), warnings.catch_warnings(), np.errstate(all="ignore"):
@@ -332,7 +355,7 @@ def best(question: Question, found: tuple[Find, ...]) -> tuple[float, str]:
     if question.form.kind == "choice":
         return 1.0, "the text"
     most = 0.0, ""
-    for answer, where in handed_in(question, found):
+    for answer, where in likeliest(question, handed_in(question, found)):
         if (earned := share(question, answer)) > most[0]:
             most = earned, where
         if most[0] == 1:
