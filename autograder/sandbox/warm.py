@@ -319,7 +319,8 @@ def end_parents() -> None:
     for parent in _parents.values():
         parent.end()
     for parent in _parents.values():
-        parent.join()
+        with suppress(KeyboardInterrupt):  # everything is done and said; who is still there ends by itself
+            parent.join()
     _parents.clear()
 
 

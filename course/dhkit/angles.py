@@ -18,6 +18,7 @@ FEWEST = 2
 _TWELFTH = math.pi / 12
 _LARGEST = 8 * math.pi
 _QUARTERS = range(1, 9)
+_MORE = 4  # decimals that may be given besides: 1.570796 is meant as 1.5708 is
 _ALIKE = 1e-6  # of the last decimal: a cosine may have been multiplied by sines, which are nearly 1
 
 
@@ -40,9 +41,12 @@ def cosine(value: float, decimals: int = ENOUGH) -> int | None:
 
 def _completes_quarters(angle: float, decimals: int) -> bool:
     """Whether some quarter turns and `angle` more, or less, are a number of about so many decimals."""
-    near = _ALIKE * 10.0**-decimals
     angles = [quarters * math.pi / 2 + sign * angle for quarters in _QUARTERS for sign in (1, -1)]
-    return any(abs(one - round(one, places)) < near for one in angles for places in (decimals, decimals + 1))
+    return any(
+        abs(one - round(one, places)) < _ALIKE * 10.0**-places
+        for one in angles
+        for places in range(decimals, decimals + _MORE)
+    )
 
 
 def meant(node: object) -> object:

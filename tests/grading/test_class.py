@@ -330,5 +330,5 @@ def test_grading_again_leaves_unchanged_submissions_alone(ours, small, released,
 def test_the_report_counts_notes_and_runs_no_script(ours, capsys, tmp_path):
     assert command(ours, "report", "scara", "--to", str(tmp_path)) == 0
     assert "right 12" in capsys.readouterr().out
-    assert 'scara.T04,"From the base to the hand, 0T4",10.0,24,' in (tmp_path / "questions.csv").read_text()
+    assert 'scara.T04,"The SCARA of the lecture, 0T4",10.0,24,' in (tmp_path / "questions.csv").read_text()
     harmless(BeautifulSoup((tmp_path / "report.html").read_text(), "html.parser").body)
