@@ -47,9 +47,10 @@ from autograder import sandbox
 from autograder.sandbox import relay
 if sys.argv[3:] == ["no gate"]:
     relay.MessageGate.feed = lambda self, data: bytearray(data)
+seconds = 60 if sys.argv[3:] else 6  # a busy machine lets less through in the same time
 def run(*sources):
     cells = [nbformat.v4.new_code_cell(source) for source in sources]
-    limits = sandbox.Limits(memory=3 << 30, cell_seconds=6, notebook_seconds=100)
+    limits = sandbox.Limits(memory=3 << 30, cell_seconds=seconds, notebook_seconds=100)
     return sandbox.run_notebook(nbformat.v4.new_notebook(cells=cells), limits=limits)
 run("1")
 before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
