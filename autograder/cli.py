@@ -748,5 +748,15 @@ def _doctor(options) -> int:
     return int(missing)
 
 
+def program() -> int:
+    """`main` as a process of its own: a signal that comes when all is done and said finds nothing to stop."""
+    code = main()
+    if code < 128:
+        for name in ("SIGINT", "SIGTERM", "SIGHUP"):
+            if hasattr(signal, name):
+                signal.signal(getattr(signal, name), signal.SIG_IGN)
+    return code
+
+
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(program())
