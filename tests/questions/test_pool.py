@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -47,7 +48,9 @@ def test_an_arm_is_said_in_words_and_drawn_with_each_joint_and_length(name):
     shown = arm_of({"arm": name})
     said = shown._repr_markdown_()
     assert shown.title in said and said.count("\n| ") == len(shown.joints) + 1
-    texts = " ".join(text.get_text() for text in draw_arm(shown).texts)
+    ax = draw_arm(shown)
+    texts = " ".join(text.get_text() for text in ax.texts)
+    plt.close(ax.figure)
     for number in range(1, len(shown.joints) + 1):
         assert f"Z_{{{number}}}" in texts
     assert set(shown.letters) == set(shown.lengths), "each length is one that can be seen"
