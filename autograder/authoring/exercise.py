@@ -119,7 +119,7 @@ def _text_of(robot: Path, title: str | None) -> str:
 
 def _complain(arm: Described) -> None:
     """Raise ValueError unless each joint stands in one row of its own, in order, as it is: statements speak of its axis."""
-    stand = [row.variable for row in arm.table.rows if row.variable.free_symbols & set(arm.table.joints)]
+    stand = [row.variable for row in arm.table.moving]
     for number, (joint, variable) in enumerate(zip(arm.table.joints, stand), 1):
         if variable.diff(joint) != 1 or variable.free_symbols & set(arm.table.joints) != {joint}:
             raise ValueError(

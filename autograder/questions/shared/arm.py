@@ -58,7 +58,7 @@ def _about_table(exercise: str, arm: Described) -> Iterable[Question]:
 
 def has_second_joint(arm: Described) -> bool:
     """Whether row 2 is a joint's, so that its matrix can be asked for."""
-    return len(arm.table.rows) > 1 and bool(arm.table.rows[1].variable.free_symbols & set(arm.table.joints))
+    return len(arm.table.rows) > 1 and arm.table.rows[1] in arm.table.moving
 
 
 def _about_matrices(exercise: str, arm: Described) -> Iterable[Question]:

@@ -27,8 +27,7 @@ def robot_of(arm: Described) -> Robot:
 @cache
 def turning(arm: Described) -> tuple[int, ...]:
     """The places of the joints that turn, from 0."""
-    moving = [row for row in arm.table.rows if row.variable.free_symbols & set(arm.table.joints)]
-    return tuple(i for i, row in enumerate(moving) if not row.sigma)
+    return tuple(i for i, row in enumerate(arm.table.moving) if not row.sigma)
 
 
 @cache

@@ -21,7 +21,6 @@ from autograder.judge.misconceptions import (
     transposed_rotation,
 )
 from autograder.judge.question import Step
-from dhkit.variants import OwnNumbers
 from dhm.transforms import classic_dh
 
 from .pool import arm_of, arms
@@ -141,12 +140,6 @@ def transform(name: str, factors: str = "right") -> sympy.ImmutableMatrix:
         "without the first": lambda: product(right[1:]),
         "without the last": lambda: product(right[:-1]),
         "classic": lambda: product([classic_dh(*row.parameters) for row in table.rows]),
-        "inverse": lambda: product([one for row in reversed(table.rows) for one in [row.inverse_transform()]]),
+        "inverse": lambda: product(table.inverse_transforms()[::-1]),
     }
     return sympy.ImmutableMatrix(found[factors]())
-
-
-def symbols_of(mine: OwnNumbers) -> tuple[list[sympy.Symbol], list[sympy.Symbol]]:
-    """Joint variables and lengths of a student's own arm."""
-    table = arm_of(mine).table
-    return list(table.joints), [sympy.Symbol(str(name)) for name in table.values]

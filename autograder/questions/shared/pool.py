@@ -68,12 +68,12 @@ def axes_in_space(table: DHTable) -> dict[str, Any]:
 
 def end_frame(table: DHTable) -> str:
     """The name of the end effector's frame: the number of the last row, or E where that is no joint's."""
-    return str(len(table.rows)) if table.rows[-1].variable.free_symbols & set(table.joints) else "E"
+    return str(len(table.rows)) if table.rows[-1] in table.moving else "E"
 
 
 def frames_in_space(table: DHTable) -> list[sympy.Matrix]:
     """The frames of a table, one (4, 4) for each row, seen from the base, with every turning joint at zero."""
-    turning = set().union(*(row.variable.free_symbols & set(table.joints) for row in table.rows if not row.sigma))
+    turning = set().union(*(row.variable.free_symbols for row in table.moving if not row.sigma)) & set(table.joints)
     at_zero, frame, frames = dict.fromkeys(turning, 0), sympy.eye(4), []
     for transform in table.transforms():
         frame = (frame * transform.subs(at_zero)).applyfunc(sympy.expand)
@@ -118,9 +118,9 @@ def measured(name: str) -> dict[str, Any]:
             for letter, value in _lengths(arm).items()
         }
     )
-    slides = [row.sigma for row in arm.table.rows if row.variable.free_symbols & set(arm.table.joints)]
     drawn = [
-        [chance.randrange(40, 400, 5) if one else chance.randrange(-85, 90, 5) for one in slides] for _ in range(9)
+        [chance.randrange(40, 400, 5) if row.sigma else chance.randrange(-85, 90, 5) for row in table.moving]
+        for _ in range(9)
     ]
     points = [
         [round(1000 * float(value) + chance.gauss(0, 1.5), 1) for value in table.forward(in_si(arm, q))[:3, 3]]
@@ -131,8 +131,7 @@ def measured(name: str) -> dict[str, Any]:
 
 def in_si(arm: Described, q: Sequence[float], degree: float = np.pi / 180) -> list[float]:
     """Joint values in degrees and millimetres, in radians and metres; `degree` is what an angle of 1 counts."""
-    moving = [row for row in arm.table.rows if row.variable.free_symbols & set(arm.table.joints)]
-    return [value / 1000 if row.sigma else value * degree for row, value in zip(moving, q, strict=True)]
+    return [value / 1000 if row.sigma else value * degree for row, value in zip(arm.table.moving, q, strict=True)]
 
 
 def for_the_kit() -> str:

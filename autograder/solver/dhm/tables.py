@@ -166,6 +166,11 @@ class DHTable:
             _coupling=_coupled(checked, variables),
         )
 
+    @property
+    def moving(self) -> list[DHRow]:
+        """The rows that hold a joint variable; the others are constant."""
+        return [row for row in self.rows if row.variable.free_symbols & set(self.joints)]
+
     def transforms(self) -> list[sp.Matrix]:
         """The elementary transforms [0T1, 1T2, ...], one 4x4 per row."""
         return [row.transform() for row in self.rows]
