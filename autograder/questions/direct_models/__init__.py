@@ -6,7 +6,7 @@ import operator
 
 import numpy as np
 
-from autograder.judge import Question, mistake
+from autograder.judge import Mistake, Question, mistake
 from autograder.judge.chain import SAME_SENSES
 from autograder.judge.misconceptions import (
     angle_not_summed,
@@ -52,6 +52,38 @@ from .model import (
     unmark,
     w,
 )
+
+
+def _in_a_product(after: int, stopped: str, look: str) -> tuple[Mistake, ...]:
+    """What goes wrong in a product of the rows of a sheet: `stopped` says where, `look` how the reading is checked."""
+    return (
+        mistake(
+            "one_step_short",
+            0.4,
+            f"**The recursion stopped one step too early.** {stopped}",
+            wrong={"after": after},
+        ),
+        mistake(
+            "reversed_product",
+            0.3,
+            "**The matrices are multiplied in the reverse order.** From left to right: base first, end effector last.",
+            wrong={"order": "end first"},
+        ),
+        mistake(
+            "other_convention",
+            0.4,
+            f"**The sheet is read in the other convention.** {look}",
+            wrong={"convention": False},
+        ),
+        mistake(
+            "lengths_exchanged",
+            0.4,
+            f"**The two lengths of every row are exchanged.** {look}",
+            wrong={"columns": False},
+        ),
+        transposed_rotation(),
+    )
+
 
 QUESTIONS = (
     Question(
@@ -325,66 +357,20 @@ QUESTIONS = (
         "direct_models.U2",
         reference=own.from_frame_2,
         depends=("robot", "sheet"),
-        mistakes=(
-            mistake(
-                "one_step_short",
-                0.4,
-                "**The recursion stopped one step too early.** This is U3 = 3T6: joint 3 is not in it.",
-                wrong={"after": 3},
-            ),
-            mistake(
-                "reversed_product",
-                0.3,
-                "**The matrices are multiplied in the reverse order.** From left to right: base first, end effector last.",
-                wrong={"order": "end first"},
-            ),
-            mistake(
-                "other_convention",
-                0.4,
-                "**The sheet is read in the other convention.** See the question before: which point does the example give?",
-                wrong={"convention": False},
-            ),
-            mistake(
-                "lengths_exchanged",
-                0.4,
-                "**The two lengths of every row are exchanged.** See the question before: which point does the example give?",
-                wrong={"columns": False},
-            ),
-            transposed_rotation(),
+        mistakes=_in_a_product(
+            3,
+            "This is U3 = 3T6: joint 3 is not in it.",
+            "See the question before: which point does the example give?",
         ),
     ),
     Question(
         "direct_models.T06",
         reference=own.product,
         depends=("robot", "sheet"),
-        mistakes=(
-            mistake(
-                "one_step_short",
-                0.4,
-                "**The recursion stopped one step too early.** This is U1 = 1T6: joint 1 is not in it.",
-                wrong={"after": 1},
-            ),
-            mistake(
-                "reversed_product",
-                0.3,
-                "**The matrices are multiplied in the reverse order.** From left to right: base first, end effector last.",
-                wrong={"order": "end first"},
-            ),
-            mistake(
-                "other_convention",
-                0.4,
-                "**The sheet is read in the other convention.** Put the example of the sheet into your matrix: is the last column "
-                "the point?",
-                wrong={"convention": False},
-            ),
-            mistake(
-                "lengths_exchanged",
-                0.4,
-                "**The two lengths of every row are exchanged.** Put the example of the sheet into your matrix: is the last column "
-                "the point?",
-                wrong={"columns": False},
-            ),
-            transposed_rotation(),
+        mistakes=_in_a_product(
+            1,
+            "This is U1 = 1T6: joint 1 is not in it.",
+            "Put the example of the sheet into your matrix: is the last column the point?",
         ),
     ),
     Question(
