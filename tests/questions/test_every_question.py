@@ -18,6 +18,7 @@ from autograder.questions import exercises, find
 from autograder.questions.shared.tables import list_rows
 from autograder.reference import robots
 from dhkit import public, wire
+from dhkit.variants import SETS, member, numbers_of_set
 
 QUESTIONS = [question for questions in exercises().values() for question in questions]
 DATA = [question for question in QUESTIONS if question.form.kind != "function"]
@@ -206,6 +207,31 @@ def test_constant_functions_are_refused(question):
 def test_something_else_than_a_function_is_said_to_be_so(question):
     found = judge(question, Evidence(wire.packet(question.id, answer=[1, 2])), STUDENT)
     assert found.note == "malformed" and "expected a function" in found.feedback and "shape 2" in found.feedback
+
+
+@pytest.mark.parametrize("question", [q for q in QUESTIONS if q.depends is not None], ids=lambda q: q.id)
+def test_only_the_numbers_that_a_question_names_change_its_answer(question):
+    """Else the envelopes of one student would open, or stay closed, for another one's answer."""
+    numbers = [numbers_of_set(question.exercise, which) for which in range(SETS)]
+    like = {}
+    for which, mine in enumerate(numbers):
+        like.setdefault(tuple(mine[name] for name in question.depends), []).append(which)
+    shared = [sets[:2] for sets in like.values() if len(sets) > 1]
+    assert question.personal and shared
+    for pair in shared[:6]:
+        students = [member(question.exercise, which) for which in pair]
+        for ways in ((), *((node.ways[0],) for node in question.mistakes)):
+            try:
+                one, other = (question.answer(student, *ways) for student in students)
+            except ValueError as none:
+                assert "changes nothing" in str(none)
+                continue
+            if question.form.kind == "function":
+                probes = question.probes(students[0], 7)
+                assert probes == question.probes(students[1], 7)
+                one, other = ([function(*args) for args in probes] for function in (one, other))
+            plain = [getattr(each, "solutions", each) for each in (one, other)]
+            assert wire.encode(plain[0]) == wire.encode(plain[1])
 
 
 def test_both_halves_ask_the_same_questions():

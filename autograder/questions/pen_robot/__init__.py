@@ -173,7 +173,6 @@ QUESTIONS = (
     Question(
         "pen_robot.pen",
         reference=pen_for_circle,
-        depends=("L1", "h2", "L2", "drop", "radius"),
         mistakes=(
             mistake(
                 "side_forgotten",

@@ -118,7 +118,6 @@ QUESTIONS = (
     Question(
         "planar_2r.belt",
         reference=belt_times,
-        depends=("L1", "L2", "belt", "speed", "start"),
         mistakes=(
             mistake(
                 "distance_taken_for_the_way",
@@ -203,7 +202,6 @@ QUESTIONS = (
     Question(
         "planar_2r.postures",
         reference=own_postures,
-        depends=("arm", "a", "b", "c", "x", "y", "phi"),
         mistakes=(
             posture_missing(),
             with_first_theta1(),

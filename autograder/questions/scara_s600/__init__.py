@@ -228,7 +228,6 @@ QUESTIONS = (
         "scara_s600.choice",
         reference=fitting,
         places=False,
-        depends=("order", "near", "far", "lift", "mass"),
         mistakes=(
             mistake(
                 "hole_forgotten",
@@ -254,7 +253,6 @@ QUESTIONS = (
         "scara_s600.lengths",
         reference=fitted,
         tolerance=6e-4,  # some three standard deviations of what 30 such points leave open
-        depends=("d2", "d3", "x", "y"),
         mistakes=(
             mistake(
                 "as_on_the_data_sheet",

@@ -157,6 +157,7 @@ QUESTIONS = (
     Question(
         "tables.wrist",
         reference=wrist,
+        depends=("arm",),
         mistakes=(
             classic_table(),
             sign_of("alpha", 2, 3),

@@ -148,7 +148,6 @@ QUESTIONS = (
     Question(
         "workspace.pallet",
         reference=pallet,
-        depends=("L1", "L2", "t2_min", "t2_max", "wide", "deep"),
         mistakes=(
             mistake(
                 "stops_ignored",
