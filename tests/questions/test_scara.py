@@ -1,5 +1,7 @@
 """The own arms of the SCARA exercise: each that an id can pick has its right answers, its mistakes and its picture."""
 
+from contextlib import suppress
+
 import matplotlib.pyplot as plt
 import pytest
 from answers import evidence
@@ -39,6 +41,18 @@ def test_every_arm_has_its_right_answer_and_its_mistakes(arm, name):
                 continue
             # With some arms two mistakes come to the same, or to nothing: what comes first in the tree has the name.
             assert found == "right" or known.index(found) <= known.index(node.note), (node.note, found)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["table", "T0E", "model", "measured"])
+def test_every_mistake_has_its_name_with_some_arm(name):
+    question, named = find(f"scara.{name}"), set()
+    for student in STUDENTS.values():
+        for node in question.mistakes:
+            for way in node.ways if node.note not in named else ():
+                with suppress(ValueError):
+                    named |= {handed_in(question, student, way).note} & {node.note}
+    assert named == {node.note for node in question.mistakes}
 
 
 @pytest.mark.slow
