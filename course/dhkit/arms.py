@@ -15,6 +15,8 @@ from typing import Any
 
 import numpy as np
 
+from .words import plain
+
 FILE = "arms.json"
 EXTENDED = 0.25
 """How far a sliding joint is drawn out, in metres."""
@@ -102,6 +104,9 @@ class Arm:
             ]
         )
 
+    def __repr__(self) -> str:
+        return plain(self._repr_markdown_())
+
     def _repr_markdown_(self) -> str:
         return (
             f"Your arm is **{self.title}**. Seen from frame 0, with every turning joint at zero:\n\n{self.in_words()}"
@@ -166,6 +171,9 @@ class Log:
     q: tuple[tuple[float, ...], ...]
     points: tuple[tuple[float, ...], ...]
     asked: tuple[float, ...]
+
+    def __repr__(self) -> str:
+        return plain(self._repr_markdown_())
 
     def _repr_markdown_(self) -> str:
         units = ["mm" if slides else "degrees" for slides in self.slides]

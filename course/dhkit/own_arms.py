@@ -12,6 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from sympy import Expr, Integer, pi, symbols
 
+from .words import plain
+
 q1, q2, q3, q4, q5, a1, a2, a3, a4 = symbols("q1:6 a1:5")
 d1, d2, d3, d4, d5 = symbols("d1:6")
 HALF, NONE = pi / 2, Integer(0)
@@ -120,6 +122,9 @@ class JointList:
         """Origins of the joints and the gripper in the base frame, all joints at zero, shape (n + 1, 3), in metres."""
         known = {"": 0.0, **self.numbers}
         return np.cumsum([[known[line.x], 0, known[line.z]] for line in self.lines], axis=0)
+
+    def __repr__(self) -> str:
+        return plain(self._repr_markdown_())
 
     def _repr_markdown_(self) -> str:
         known = {"": "0", **{name: str(number) for name, number in self.numbers.items()}}

@@ -13,6 +13,8 @@ from importlib import resources
 
 import sympy
 
+from .words import plain
+
 FILE = "sheets.json"
 ARMS = ("ur5e", "irb120", "puma560", "stanford", "lr_mate", "kr6", "tx2_60", "gantry", "cylindrical")
 SHEETS = ("I", "II", "III", "IV")
@@ -52,6 +54,9 @@ class Sheet:
     lengths: Mapping[str, float]
     q: tuple[float, ...]
     point: tuple[float, ...]
+
+    def __repr__(self) -> str:
+        return plain(self._repr_markdown_())
 
     def _repr_markdown_(self) -> str:
         rows = (

@@ -5,6 +5,7 @@ from __future__ import annotations
 from .. import public, variants
 from ..notice import Line, Notice, show
 from ..variants import OwnNumbers
+from ..words import plain
 from .envelopes import find
 from .verdict import Verdict, verdict
 
@@ -48,7 +49,7 @@ class Practice:
         return f"Practice, **{self._question.title}**: {numbers}. Then `task.check(your answer)`."
 
     def __repr__(self) -> str:
-        return self._repr_markdown_().replace("*", "").replace("`", "")
+        return plain(self._repr_markdown_())
 
 
 def practice(id: str) -> Practice:
