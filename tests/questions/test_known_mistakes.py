@@ -178,8 +178,11 @@ def solutions(rows, angles):
 
 
 def says_something(function, question):
-    """Whether a function finds anything where it is asked: from nothing nobody can tell what went wrong."""
-    found = [np.size(function(*args)) for args in question.probes(STUDENT, 7)]
+    """Whether a function finds anything where it is asked: from nothing, or from an error, nobody can tell what went wrong."""
+    try:
+        found = [np.size(function(*args)) for args in question.probes(STUDENT, 7)]
+    except (ArithmeticError, ValueError, IndexError):
+        return False
     return np.count_nonzero(found) > len(found) / 2 or not isinstance(question.returns, JointSolutions)
 
 

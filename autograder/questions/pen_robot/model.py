@@ -172,12 +172,15 @@ UPRIGHT = 0.5, 0.4, 0.6
 COMMON_SHARES = 0.5, 0.0, 1.0
 
 
-def follow(*point, mine, heading="arm", zero="upright", shares=UPRIGHT) -> Family:
-    """Joint values [t1, t2, t3] for a point of the curve: phi shared by joints 2 and 3 in some ways.
+def follow(*point, mine, heading="arm", zero="upright", shares=UPRIGHT) -> Family | list:
+    """Joint values [t1, t2, t3] for a point of the curve: phi shared by joints 2 and 3 in some ways; [] off the surface.
 
     `heading` may be that of the ``"tip"``, or its ``"mirror"`` image; `zero` may be ``"horizontal"``.
     """
-    turn, angle = own_robot(mine).inverse_model.effective(point, tol=1e-7)[0]
+    found = own_robot(mine).inverse_model.effective(point, tol=1e-7)
+    if not found:
+        return []
+    turn, angle = found[0]
     tip = np.arctan2(point[1], point[0])
     turn = {"arm": turn, "tip": tip, "mirror": 2 * tip - turn}[heading]
     angle = angle if zero == "upright" else np.pi / 2 - angle
