@@ -32,6 +32,7 @@ class _File(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     rows: list[tuple[int, float | str, float | str, float | str, float | str]]
     lengths: dict[str, float] = {}
     posture: list[float] = []
+    source: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,11 +46,14 @@ class Described:
         With letters for joints and lengths, and numbers for the lengths.
     posture : tuple of float
         Joint values, (n,), whose pose is asked back; empty where the inverse model is not asked for.
+    source : str
+        Where the numbers of a robot that can be bought are from; empty for one that is made up.
     """
 
     title: str
     table: DHTable
     posture: tuple[float, ...] = ()
+    source: str = ""
 
     @property
     def joints(self) -> list[str]:
@@ -76,7 +80,8 @@ def describe(text: str) -> Described:
 
     The file says ``title``; ``joints``, the names of the joint variables in order; ``rows``, lists
     ``[sigma, a, alpha, d, theta]`` of numbers, or texts of numbers, ``pi`` and letters; ``[lengths]``, a number for each
-    letter that is no joint; and, where the inverse model is asked for, ``posture``, one value for each joint.
+    letter that is no joint; where the inverse model is asked for, ``posture``, one value for each joint; and ``source``,
+    where the numbers are from, if somebody has published them.
 
     Raises
     ------
@@ -110,9 +115,8 @@ def robot_of(where: str, fields: Mapping[str, object]) -> Described:
             f"{where}: posture: expected {len(found.joints)} values, one for each joint, found {len(found.posture)}"
         )
     joints = [symbols[name] for name in found.joints]
-    return Described(
-        found.title, DHTable(rows, found.title, joints, values=found.lengths), tuple(map(float, found.posture))
-    )
+    table = DHTable(rows, found.title, joints, values=found.lengths)
+    return Described(found.title, table, tuple(map(float, found.posture)), found.source)
 
 
 def _expression(entry: float | str, symbols: dict[str, sympy.Symbol]) -> sympy.Expr:
