@@ -337,7 +337,8 @@ def test_each_kind_of_picture_looks_as_it_did(show, kind):
     tab = show(KINDS[kind](), width=700, height=460)
     if kind == "path":
         tab.until("root.querySelector('[aria-label=path] input').value === '1'")
-        tab.ask("root.querySelector('[aria-label=\"reset the view\"]').click()")  # it stepped back as far as its frames asked
+        # The view stepped back as far as the frames asked.
+        tab.ask("root.querySelector('[aria-label=\"reset the view\"]').click()")
     picture = tab.picture()
     seen = picture[..., :3] * picture[..., 3:] + 1 - picture[..., 3:]
     rows, columns = (size // 4 for size in seen.shape[:2])
