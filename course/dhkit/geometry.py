@@ -55,7 +55,8 @@ def wrap(angle: ArrayLike, rounding: float = 6e-13) -> np.ndarray:
     angle = np.asarray(angle)
     turns = np.ceil((angle - np.pi - rounding) * (0.5 / np.pi))
     near = np.minimum(angle - turns * (2 * np.pi), np.pi)
-    return np.where(np.abs(turns) < 1e9, near, np.pi - np.remainder(np.pi - angle, 2 * np.pi))[()]
+    huge = np.abs(turns) >= 1e9
+    return np.where(huge, np.pi - np.remainder(np.pi - angle, 2 * np.pi), near)[()] if huge.any() else near
 
 
 def lies_between(angle: ArrayLike, low: ArrayLike, high: ArrayLike, tolerance: float = 0.0) -> np.ndarray:

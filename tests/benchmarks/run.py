@@ -29,7 +29,7 @@ from eaik.IK_DH import DhRobot
 from rich.console import Console
 from rich.table import Table
 
-from autograder.reference import robots, workspace
+from autograder.reference import Robot, robots, workspace
 from autograder.reference.errata.proof import agree
 
 HERE = Path(__file__).resolve().parent
@@ -129,6 +129,36 @@ def inverse():
             ("EAIK's IK, C++", one_peer, "no more than 8 times", one <= 8 * one_peer),
             ("inverse, with names and reasons", usual, "no more than a tenth", one <= usual / 10),
         ]
+    ]
+
+
+def six_turns():
+    """An arm of which no three joints form a group; its peer is the eigenvalue problem within, which no way avoids."""
+    half = np.pi / 2
+    arm = Robot.from_table(
+        [
+            *[(0, 0, 0, 0.2, None), (0, 0.1, -half, 0, None), (0, 0.54, 0, 0, None)],
+            *[(0, 0.1, -half, 0.54, None), (0, 0.05, half, 0.15, None), (0, 0.06, -half, 0.16, None)],
+        ],
+        "six turns",
+    )
+    poses = arm.forward(random_joints()[:200])
+    matrix = np.random.default_rng(0).normal(size=(24, 24))
+    one, batch, eigenvalues = best(
+        lambda: [arm.inverse(pose) for pose in poses],
+        lambda: arm.inverse_batch(poses),
+        lambda: [np.linalg.eig(matrix) for _ in poses],
+    )
+    return [
+        Row(
+            f"inverse, {how} of an arm of six turns, up to 16 postures; np.linalg.eig of 24 x 24",
+            f"{1e6 * ours / len(poses):.0f} us/pose",
+            f"{1e6 * eigenvalues / len(poses):.0f} us",
+            f"{ours / eigenvalues:.2g} times",
+            f"no more than {most} times",
+            ours <= most * eigenvalues,
+        )
+        for how, ours, most in [("one pose", one, 15), (f"{len(poses)} poses", batch, 3)]
     ]
 
 
@@ -297,7 +327,11 @@ def main():
     table = Table(title="Reference solver against its peers")
     for name in ("what", "ours", "peer", "ratio", "target", ""):
         table.add_column(name, overflow="fold")
-    rows = [row for measure in (forward, jacobians, inverse, symbolic, workspace_points, imports) for row in measure()]
+    rows = [
+        row
+        for measure in (forward, jacobians, inverse, six_turns, symbolic, workspace_points, imports)
+        for row in measure()
+    ]
     for row in rows:
         verdict = {True: "[green]met[/]", False: "[red]missed[/]", None: "[yellow]not run[/]"}
         table.add_row(row.what, row.ours, row.peer, row.ratio, row.target, verdict[row.met])

@@ -7,6 +7,7 @@ import sympy as sp
 
 from autograder.reference import robots
 from autograder.reference.centres import epfl_centres, rotation_about, scara_centres
+from dhm.few_postures import FEW
 
 t1, t2, t3, t4, t5, t6 = t = sp.symbols("t1:7")
 C1, C2, C4, C5, C6, C23 = (sp.cos(x) for x in (t1, t2, t4, t5, t6, t2 + t3))
@@ -85,6 +86,17 @@ def test_one_posture_is_that_of_many(name):
         np.testing.assert_allclose((ahead - behind)[:, :3, 3].T / 2e-6, J[:3], atol=1e-8)
         turns = (ahead - behind)[:, :3, :3] @ pose[:3, :3].T / 2e-6
         np.testing.assert_allclose(np.stack([turns[:, 2, 1], turns[:, 0, 2], turns[:, 1, 0]]), J[3:], atol=1e-8)
+
+
+@pytest.mark.parametrize("name", robots.names())
+def test_few_postures_are_those_of_many(name):
+    """Dozens of postures go a way of their own, slides, coupled joints, bases and tools included."""
+    robot = getattr(robots, name)
+    q = np.random.default_rng(3).uniform(-2, 2, (FEW + 1, robot.table.chain.joints))
+    for few in (q[:0], q[:1], q[:40], q):
+        poses, jacobians = robot.table.chain.poses_and_jacobians(few)
+        np.testing.assert_allclose(poses, robot.forward(few), atol=1e-14)
+        np.testing.assert_allclose(jacobians, robot.jacobian(few), atol=1e-14)
 
 
 def test_rx90_vector():

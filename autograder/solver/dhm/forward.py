@@ -16,6 +16,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import ArrayLike
 
+from .few_postures import FEW, FewPostures
 from .geometry import modified_dh_of_cosines
 from .one_posture import OnePosture
 from .transforms import rot_x, trans_x
@@ -180,7 +181,9 @@ class Chain:
         return found.reshape(*q.shape[:-1], 6, self.joints)
 
     def poses_and_jacobians(self, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """`forward` and `jacobian` of few postures (N, n) in one go."""
+        """`forward` and `jacobian` of postures (N, n) in one go."""
+        if len(q) <= FEW:
+            return self._few.poses_and_jacobians(q)
         of_rows, vectors = self._jacobian_of_rows(q)
         poses = np.zeros((len(q), 4, 4))
         poses[:, 3, 3] = 1.0
@@ -223,6 +226,10 @@ class Chain:
     @cached_property
     def _one(self) -> OnePosture:
         return OnePosture.of(self)
+
+    @cached_property
+    def _few(self) -> FewPostures:
+        return FewPostures.of(self)
 
     @cached_property
     def _variables(self) -> list[list[tuple[int, float]]]:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from . import six_turns
 from .geometry import wrap
 from .inverse import Branches
 from .loop import Loop, in_unit, motion
 from .loop_arms import Candidates, LoopArm
 from .settling import Task
+from .six_turns import MOST, Elimination
 from .status import Flag
 from .tables import DHTable
 
@@ -78,16 +79,24 @@ class SixTurns:
             raise ValueError(f"elimination is degenerate for it: it loses {missed} of {_TRIED} known postures")
         return cls(loop, tuple(best))
 
+    @cached_property
+    def _eliminations(self) -> list[Elimination]:
+        return [self._elimination(*each) for each in self.beginnings[:_LOOKS]]
+
+    def _elimination(self, first: int, backwards: bool) -> Elimination:
+        links = [link[None] for link in (*self.loop.links[1:6], np.eye(4))]  # the last one differs from pose to pose
+        around, place = links[first:] + links[:first], 5 - first
+        if backwards:
+            around = [*(np.linalg.inv(link) for link in around[4::-1]), np.linalg.inv(around[5])]
+            place = 5 if place == 5 else 4 - place
+        return Elimination(tuple(around), place)
+
     def candidates(self, T: np.ndarray, near: np.ndarray, looks: int = 1) -> Candidates:
         """As `loop_arms.Algebra` has it; K = 16 for each of so many beginnings."""
-        links = [link[None] for link in self.loop.links]
-        loop = [*links[1:6], links[6] @ np.linalg.inv(T) @ links[0]]
+        link = self.loop.links[6] @ np.linalg.inv(T) @ self.loop.links[0]
         several = []
-        for first, backwards in self.beginnings[:looks]:
-            around = loop[first:] + loop[:first]
-            if backwards:
-                around = [np.linalg.inv(link) for link in (*around[4::-1], around[5])]
-            angles, apart = six_turns.candidates(around)
+        for (first, backwards), elimination in zip(self.beginnings[:looks], self._eliminations):
+            angles, apart = elimination.candidates(np.linalg.inv(link) if backwards else link)
             angles = np.roll(-angles[::-1] if backwards else angles, first, axis=0)
             flags = np.where(apart > _COUNTED, Flag.STRETCHED, 0).astype(np.uint8)
             several.append(Candidates(angles, apart <= _REAL, flags, flags > 255))
@@ -98,7 +107,7 @@ class GeneralArm(LoopArm):
     """Six turns about any axes: at most 16 solutions, in the order of their first joint's values."""
 
     expected_joints = 6
-    branch_count = six_turns.MOST
+    branch_count = MOST
 
     def __init__(self, table: DHTable) -> None:
         """Raises ValueError for slides, for joints that lose a freedom, and where elimination is degenerate."""
@@ -110,18 +119,18 @@ class GeneralArm(LoopArm):
         self.anchors = {Flag.FREE_CHAIN: ()}
 
     def candidates(self, T: np.ndarray, near: np.ndarray) -> Candidates:
-        return Candidates.joined([starts(near[:, None]), self._algebra.candidates(T, near)])
+        return self._algebra.candidates(T, near)
 
     def closed_form(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Branches:
-        start = np.stack([np.broadcast_to(self.map.row(i, near), len(poses)) for i in range(6)])
-        T = in_unit(poses, 1 / self.size)
-        first = self.candidates(T, start)
-        found = self._listed(first, poses, tol)
+        start, T = self.map.rows(near, len(poses)), in_unit(poses, 1 / self.size)
+        candidates = self.candidates(T, start)
+        tried = candidates if near is None else Candidates.joined([starts(start[:, None]), candidates])
+        found = self._listed(tried, poses, tol)
         # At special poses roots coincide, and their vectors with them. Beside them they do not, and postures are near.
         count = found.valid.sum(axis=0)
         merged = (found.valid & (found.flags != 0)).any(axis=0)
         doubtful = np.flatnonzero(
-            (count % 2 == 1) | (count < (first.flags[1:] == 0).sum(axis=0)) | (count == 0) | merged
+            (count % 2 == 1) | (count < (candidates.flags == 0).sum(axis=0)) | (count == 0) | merged
         )
         if len(doubtful):
             wished, T = start[:, doubtful], T[doubtful]
@@ -144,13 +153,12 @@ class GeneralArm(LoopArm):
             loose = Task(self.chain, self.size, 6).loose(found.q[:, branch, pose].T, poses[pose])
             found.flags[branch[loose], pose[loose]] = Flag.FREE_CHAIN
         first = np.argsort(~found.valid, axis=0, kind="stable")[: self.branch_count]
-        angle = np.where(found.valid, wrap(found.q[0]), np.inf)
-        order = np.take_along_axis(
-            first, np.take_along_axis(angle, first, axis=0).argsort(axis=0, kind="stable"), axis=0
+        pose = np.arange(len(poses))
+        angle = np.where(found.valid[first, pose], wrap(found.q[0, first, pose]), np.inf)
+        order = first[angle.argsort(axis=0, kind="stable"), pose]
+        return Branches(
+            found.q[:, order, pose], found.valid[order, pose], found.flags[order, pose], found.excess, found.failure
         )
-        q = np.take_along_axis(found.q, order[None], axis=1)
-        valid, flags = (np.take_along_axis(each, order, axis=0) for each in (found.valid, found.flags))
-        return Branches(q, valid, flags, found.excess, found.failure)
 
     def free(self, flags: int) -> str:
         return "several joints can move together" if flags & Flag.FREE_CHAIN else ""

@@ -75,6 +75,14 @@ class JointMap:
         """Joint value from the row variable."""
         return self.sign[index] * (row - self.offset[index])
 
+    def rows(self, near: np.ndarray | None, count: int) -> np.ndarray:
+        """`row` of all joints, (n, N) for N = count."""
+        return np.repeat(self.offset[:, None], count, axis=1) if near is None else (self.sign * near.T + self.offset).T
+
+    def joints(self, rows: np.ndarray) -> np.ndarray:
+        """`joint` of all rows (n, K, N)."""
+        return self.sign[:, None, None] * (rows - self.offset[:, None, None])
+
 
 class InverseModel(ABC):
     """Base of the closed-form inverse models.

@@ -87,9 +87,7 @@ class LoopArm(InverseModel):
         """As `Algebra.candidates`, for the joints of the arm."""
 
     def closed_form(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Branches:
-        start = np.empty((self.joints, len(poses)))
-        for i in range(self.joints):
-            start[i] = self.map.row(i, near)
+        start = self.map.rows(near, len(poses))
         branches, missing = self._branches(poses, start, tol)
         # Of a family, the member at the wished values may be out of reach: then the nearest one on a grid that is not.
         free = sorted({j for joints in self.anchors.values() for j in joints})
@@ -114,8 +112,7 @@ class LoopArm(InverseModel):
         return self._settled(self.candidates(in_unit(poses, 1 / self.size), start / self._unit), poses, tol)
 
     def _settled(self, found: Candidates, poses: np.ndarray, tol: float) -> tuple[Branches, np.ndarray]:
-        rows = found.rows * self._unit[:, None]
-        q = np.stack([self.map.joint(i, rows[i]) for i in range(self.joints)])
+        q = self.map.joints(found.rows * self._unit[:, None])
         branches, reached = settled(self.chain, self.size, q, found.valid, found.flags, poses, tol)
         return branches, found.family & ~reached
 

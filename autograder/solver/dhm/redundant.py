@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from . import six_turns
 from .decoupled import Grouped
 from .general import SixTurns, starts
 from .inverse import Branches
 from .loop_arms import Algebra, Candidates, LoopArm
+from .six_turns import MOST
 from .status import Flag
 from .tables import DHTable
 
@@ -38,7 +38,7 @@ class RedundantArm(LoopArm):
         self.free_joint, self._general = self._chosen()
         kept = [i for i in range(7) if i != self.free_joint]
         grouped = isinstance(self._general, Grouped)
-        self.branch_count = 8 if grouped else six_turns.MOST + 1  # with what near leads to
+        self.branch_count = 8 if grouped else MOST + 1  # with what near leads to
         self.anchors = {}
         if isinstance(self._general, Grouped):
             self.anchors = {flag: tuple(kept[j] for j in joints) for flag, joints in self._general.anchors.items()}
@@ -84,7 +84,7 @@ class RedundantArm(LoopArm):
         return Candidates(rows, valid, flags, np.zeros(shape, dtype=bool))
 
     def closed_form(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Branches:
-        start = np.stack([np.broadcast_to(self.map.row(i, near), len(poses)) for i in range(7)])
+        start = self.map.rows(near, len(poses))
         branches, _ = self._branches(poses, start, tol)
         for step in _ASIDE:
             lacking = np.flatnonzero(~branches.valid.any(axis=0))

@@ -6,6 +6,7 @@ import warnings
 
 import numpy as np
 
+from .geometry import cross
 from .status import RoundedInput
 
 _RIGID = 1e-5  # how far a transform may be from rigid: poses rounded to six decimals pass as they are
@@ -46,7 +47,7 @@ def rigid(T: np.ndarray) -> np.ndarray:
 def _off_rigid(T: np.ndarray) -> np.ndarray:
     """How far the rotations of transforms (N, 4, 4) are from rotations, (N,)."""
     s, n, a = np.moveaxis(T[:, :3, :3], 2, 0)
-    wrong = [(s * s).sum(1) - 1, (n * n).sum(1) - 1, (s * n).sum(1), *(np.cross(s, n) - a).T]
+    wrong = [(s * s).sum(1) - 1, (n * n).sum(1) - 1, (s * n).sum(1), *(cross(s, n) - a).T]
     return np.abs(wrong).max(axis=0, initial=0.0)
 
 

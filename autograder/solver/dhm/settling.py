@@ -12,10 +12,10 @@ from functools import cached_property
 import numpy as np
 
 from .forward import Chain
-from .geometry import cross
 from .inverse import Branches
 from .status import Failure, Flag
 
+_BELOW, _ABOVE = [7, 2, 3], [5, 6, 1]  # entries of a rotation whose differences are twice its axis times the sine
 _EXACT = 1e-13  # of a pose with the arm's size as unit: no step is worth its while below
 _STEPS = 12
 _SINGULAR = 1e-5  # smallest singular value of the Jacobian, per largest, where branches merge
@@ -44,22 +44,24 @@ def settled(
     """
     task = Task(chain, size, 3 if only_point else 6)
     n, branches, count = q.shape
-    flat, target = q.reshape(n, -1).T.copy(), np.tile(poses, (branches, 1, 1))
-    tried = valid.ravel().copy()
-    error = np.full(len(flat), np.inf)
-    flat[tried], error[tried] = task.approached(flat[tried], target[tried])
-    reached = (error <= tol).reshape(branches, count)
-    hopeless = np.tile(~reached.any(axis=0), branches)
-    again = hopeless & np.isfinite(flat).all(axis=1)
-    if again.any():  # from a singular posture a step leads nowhere: from beside it
+    flat = q.reshape(n, -1).T.copy()
+    error, slopes = np.full(len(flat), np.inf), np.zeros((len(flat), task.freedoms, n))
+
+    def approach(some: np.ndarray) -> np.ndarray:
+        """Brings some of all candidates onto their poses; says which candidates are there, (K, N)."""
+        flat[some], error[some], slopes[some] = task.approached(flat[some], poses[some % count])
+        return (error <= tol).reshape(branches, count)
+
+    reached = approach(np.flatnonzero(valid))
+    hopeless = ~reached.any(axis=0)
+    if hopeless.any():  # from a singular posture a step leads nowhere: from beside it
+        again = np.flatnonzero(np.tile(hopeless, branches) & np.isfinite(flat).all(axis=1))
         flat[again] += _BESIDE * task.unit * np.cos(np.arange(n))
-        flat[again], error[again] = task.approached(flat[again], target[again])
-    best = error.reshape(branches, count)
-    reached = best <= tol
+        reached = approach(again)
     q = flat.T.reshape(n, branches, count)
-    flags = task.told_by_rank(q, reached, flags)
+    flags = task.told_by_rank(slopes[reached.ravel()], reached, flags)
     lost = ~reached.any(axis=0)
-    excess = np.where(lost, best.min(axis=0), 0.0)
+    excess = np.where(lost, error.reshape(branches, count).min(axis=0), 0.0)
     once = reached & ~task.repeated(q, reached, flags)
     return Branches(q, once, flags, excess, np.where(lost, Failure.BEYOND, Failure.NONE)), reached
 
@@ -86,79 +88,90 @@ class Task:
         """What a joint's unit is in radians or metres, (n,)."""
         return np.where(self.chain.prismatic[: self.chain.joints], self.size, 1.0)
 
-    def jacobian(self, q: np.ndarray) -> np.ndarray:
-        """In sizes of the arm, (R, freedoms, n), for q (R, n)."""
-        return self._in_sizes(self.chain.jacobian(q))
+    @cached_property
+    def _in_sizes(self) -> np.ndarray:
+        """What turns a Jacobian in metres and radians into one in sizes of the arm, (freedoms, n)."""
+        return (np.array([1 / self.size] * 3 + [1.0] * 3)[:, None] * self.unit)[: self.freedoms]
 
-    def _in_sizes(self, J: np.ndarray) -> np.ndarray:
-        lengths = np.array([1 / self.size] * 3 + [1.0] * 3)[:, None]
-        return (lengths * J * self.unit)[:, : self.freedoms]
+    def approached(self, q: np.ndarray, T: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Joint values (R, n) brought as near to poses (R, 4, 4) as Newton's method does.
 
-    def approached(self, q: np.ndarray, T: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Joint values (R, n) brought as near to poses (R, 4, 4) as Newton's method does, and the errors (R,) left.
-
-        An error is the largest entry by which a pose differs, in metres; rotations count times the size of the arm.
+        Also the errors (R,) left, each the largest entry by which a pose differs, in metres (rotations count times the
+        size of the arm), and the Jacobians there, as `twist` has them.
         """
-        q = q.copy()
+        q, identity = q.copy(), np.eye(self.chain.joints)
         twist, slopes = self.twist(q, T)
-        going = np.arange(len(q))
+        squares = (twist * twist).sum(axis=1)
+        going = np.flatnonzero(squares > _EXACT**2)
         for _ in range(_STEPS):
-            inexact = (twist[going] ** 2).sum(1) > _EXACT**2
-            going, J = going[inexact], slopes[inexact]
             if not len(going):
                 break
-            square = (twist[going] ** 2).sum(1)
+            J, square = slopes[going], squares[going]
+            transposed = J.swapaxes(1, 2)
             damping = 1e-3 * np.minimum(square, 1e-2) + 1e-14
-            normal = J.swapaxes(1, 2) @ J + damping[:, None, None] * np.eye(self.chain.joints)
-            step = np.linalg.solve(normal, J.swapaxes(1, 2) @ twist[going, :, None])[..., 0]
+            normal = transposed @ J + damping[:, None, None] * identity
+            step = np.linalg.solve(normal, transposed @ twist[going, :, None])[..., 0]
             tried = q[going] + self.unit * step
-            left, slopes = self.twist(tried, T[going])
-            better = (left**2).sum(1) < square
-            going, slopes = going[better], slopes[better]
-            q[going], twist[going] = tried[better], left[better]
-        return q, self.size * np.abs(twist).max(axis=1, initial=0.0)
+            left, there = self.twist(tried, T[going])
+            smaller = (left * left).sum(axis=1)
+            better = smaller < square
+            going = going[better]
+            q[going], twist[going], slopes[going], squares[going] = (
+                each[better] for each in (tried, left, there, smaller)
+            )
+            going = going[squares[going] > _EXACT**2]
+        return q, self.size * np.abs(twist).max(axis=1, initial=0.0), slopes
 
     def twist(self, q: np.ndarray, T: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """What is missing to poses T: a shift, in sizes of the arm, and a turn, as vectors, (R, freedoms); the Jacobians."""
+        """What is missing to poses T: a shift, in sizes of the arm, and a turn, as vectors, (R, freedoms).
+
+        Also the Jacobians in sizes of the arm, (R, freedoms, n).
+        """
         found, J = self.chain.poses_and_jacobians(q)
-        shift, slopes = (T[:, :3, 3] - found[:, :3, 3]) / self.size, self._in_sizes(J)
+        shift, slopes = (T[:, :3, 3] - found[:, :3, 3]) / self.size, J[:, : self.freedoms] * self._in_sizes
         if self.freedoms == 3:
             return shift, slopes
-        R, goal = found[:, :3, :3], T[:, :3, :3]
-        axis = cross(R.swapaxes(1, 2), goal.swapaxes(1, 2)).sum(axis=1) / 2
-        over = ((R * goal).sum(axis=(1, 2)) < 1)[:, None]  # beyond a quarter turn the sine says too little
-        return np.concatenate([shift, np.where(over, axis + np.sign(axis + 1e-300), axis)], axis=1), slopes
+        turn = (T[:, :3, :3] @ found[:, :3, :3].swapaxes(1, 2)).reshape(-1, 9)
+        axis = (turn[:, _BELOW] - turn[:, _ABOVE]) / 2
+        far = turn[:, ::4].sum(axis=1) < 1  # beyond a quarter turn the sine says too little
+        if far.any():
+            axis[far] += np.sign(axis[far] + 1e-300)
+        return np.concatenate([shift, axis], axis=1), slopes
 
-    def told_by_rank(self, q: np.ndarray, reached: np.ndarray, flags: np.ndarray) -> np.ndarray:
-        """Flags (K, N): no family where the Jacobian has its rank; where not and none is free, STRETCHED: branches merge."""
-        branch, pose = np.nonzero(reached)
-        values = np.linalg.svd(self.jacobian(q[:, branch, pose].T), compute_uv=False)
+    def told_by_rank(self, slopes: np.ndarray, reached: np.ndarray, flags: np.ndarray) -> np.ndarray:
+        """Flags (K, N): no family where the Jacobian has its rank; where not and none is free, STRETCHED: branches merge.
+
+        slopes : (R, freedoms, n) array
+            The Jacobians of the candidates that reached (K, N) names, in its order.
+        """
+        values = np.linalg.svd(slopes, compute_uv=False)
         singular = values[:, -1] < _SINGULAR * values[:, 0]
-        found = flags[branch, pose]
         singular |= self.chain.joints > self.freedoms
-        free = (found & Flag.FREE) != 0
         result = np.zeros_like(flags)
-        result[branch, pose] = np.where(singular, np.where(free, found & ~Flag.LIMIT, Flag.STRETCHED), 0)
+        if singular.any():
+            found = flags[reached]
+            free = (found & Flag.FREE) != 0
+            result[reached] = np.where(singular, np.where(free, found & ~Flag.LIMIT, Flag.STRETCHED), 0)
         return result
 
     def loose(self, q: np.ndarray, T: np.ndarray) -> np.ndarray:
         """Whether singular postures q (R, n) of poses T can move without moving the tool, (R,)."""
-        way = np.linalg.svd(self.jacobian(q))[2][:, -1]
-        aside, error = self.approached(q + _ASIDE * self.unit * way, T)
+        way = np.linalg.svd(self.twist(q, T)[1])[2][:, -1]
+        aside, error, _ = self.approached(q + _ASIDE * self.unit * way, T)
         moved = (((aside - q) / self.unit) * way).sum(axis=1)
         return (error <= self.size * _CLOSED) & (np.abs(moved) > _ASIDE / 2)
 
     def repeated(self, q: np.ndarray, reached: np.ndarray, flags: np.ndarray) -> np.ndarray:
         """Whether an earlier branch is the same posture, (K, N)."""
-        repeated = np.zeros_like(reached)
-        special = (flags & (Flag.FREE | Flag.LIMIT)) != 0
-        apart = q / self.unit[:, None, None]
-        turns = ~self.chain.prismatic[: self.chain.joints]
         some = np.flatnonzero(reached.any(axis=1))
-        for place, later in enumerate(some[1:], start=1):
-            earlier = some[:place]
-            gap = np.abs(apart[:, [later]] - apart[:, earlier])
-            gap[turns] = np.minimum(gap[turns] % (2 * np.pi), -gap[turns] % (2 * np.pi))
-            least = np.where(special[later] | special[earlier], _BLURRED, _SAME)
-            repeated[later] = ((gap.max(axis=0) <= least) & reached[later] & reached[earlier]).any(axis=0)
+        both = reached[some, None] & reached[some] & np.tri(len(some), k=-1, dtype=bool)[..., None]
+        later, earlier, pose = np.nonzero(both)
+        later, earlier = some[later], some[earlier]
+        gap = np.abs(q[:, later, pose] - q[:, earlier, pose]) / self.unit[:, None]
+        turns = ~self.chain.prismatic[: self.chain.joints]
+        gap[turns] = np.minimum(gap[turns] % (2 * np.pi), -gap[turns] % (2 * np.pi))
+        special = (flags & (Flag.FREE | Flag.LIMIT)) != 0
+        same = gap.max(axis=0, initial=0.0) <= np.where(special[later, pose] | special[earlier, pose], _BLURRED, _SAME)
+        repeated = np.zeros_like(reached)
+        repeated[later[same], pose[same]] = True
         return repeated

@@ -13,74 +13,118 @@ doi:10.1109/70.326569.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from .geometry import cross
 from .loop import motion
 
 MOST = 16
 """Postures that six turns can have for a pose."""
 
 _SAMPLES = 2 * np.pi * np.arange(3) / 3
+_ASIDE = np.array([0.4, 1.1, 2.3])  # radians at which c, d and e count from, so that no round angle is half a turn
 _TO_HARMONICS = np.linalg.inv(np.stack([np.ones(3), np.cos(_SAMPLES), np.sin(_SAMPLES)], axis=1))
 _HALF_ANGLE = np.array(
     [[1.0, 1, 0], [0, 0, 2], [1, -1, 0]]
 )  # 1, cos, sin times 1 + t^2 in powers of t = tan(angle / 2)
-_HARMONICS_OF_TWO = np.kron(_TO_HARMONICS, _TO_HARMONICS)
-_HARMONICS_OF_THREE = np.kron(_HARMONICS_OF_TWO, _TO_HARMONICS)
-_HALF_ANGLES_OF_THREE = np.kron(np.kron(_HALF_ANGLE, _HALF_ANGLE), _HALF_ANGLE)
-_ASIDE = np.array([0.4, 1.1, 2.3])  # radians at which c, d and e count from, so that no round angle is half a turn
+_TO_POWERS = _HALF_ANGLE @ _TO_HARMONICS
+_HARMONICS_OF_TWO = np.kron(_TO_HARMONICS, _TO_HARMONICS).T
+_POWERS_OF_THREE = np.kron(np.kron(_TO_POWERS, _TO_POWERS), _TO_POWERS).T
+_ONE_IN_POWERS = np.kron(np.kron(_HALF_ANGLE[:, 0], _HALF_ANGLE[:, 0]), _HALF_ANGLE[:, 0])
 _RANK = 1e-10  # singular value, per largest, under which a term is none
 _NOISE = 1e-13 * np.random.default_rng(0).normal(size=(12, 12))  # so that no matrix is quite singular
 
 
-def candidates(links: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """Angles of a to f that may close a loop.
+@dataclass(frozen=True)
+class Elimination:
+    """Loops that differ in one of their links; what does not depend on that link is worked out once.
 
-    Parameters
+    Attributes
     ----------
-    links : six arrays (N or 1, 4, 4)
+    links : six arrays (1, 4, 4)
         B_0 to B_5, each behind its joint; lengths in units of the arm's size.
-
-    Returns
-    -------
-    angles : (6, 16, N) array
-        Radians.
-    apart : (16, N) array
-        How far each is from real, radians; those that are come first.
+    place : int
+        Which of them differs from loop to loop; its own array does not count.
     """
-    B0, B1, B2, B3, B4, B5 = links
-    count = max(len(link) for link in links)
-    c, d, e = (_SAMPLES + aside for aside in _ASIDE)
-    left = _products(
-        motion(False, c)[:, None, None, None]
-        @ (B2 @ motion(False, d)[:, None, None] @ B3 @ motion(False, e)[:, None] @ B4)
-    )
-    back = np.linalg.inv(motion(False, _SAMPLES))
-    right = _products(
-        np.linalg.inv(B1) @ back[None, :, None] @ np.linalg.inv(B0) @ back[:, None, None] @ np.linalg.inv(B5)
-    )
-    left = left.reshape(27, -1, 14).transpose(1, 2, 0) @ _HARMONICS_OF_THREE.T
-    right = right.reshape(9, -1, 14).transpose(1, 2, 0) @ _HARMONICS_OF_TWO.T
-    left = np.broadcast_to(left, (count, 14, 27)).copy()
-    left[:, :, 0] -= right[:, :, 0]
-    free = _six_free_of(right[:, :, 1:], left)
-    six = (free.swapaxes(1, 2) @ left @ _HALF_ANGLES_OF_THREE.T).reshape(count, 6, 3, 3, 3)
-    rows = np.zeros((3, count, 12, 4, 3))
-    for power in range(3):
-        rows[power, :, :6, :3] = rows[power, :, 6:, 1:] = six[:, :, power]
-    M = rows.reshape(3, count, 12, 12)
+
+    links: tuple[np.ndarray, ...]
+    place: int
+
+    def candidates(self, link: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Angles of a to f that may close the loops whose one link is (N, 4, 4).
+
+        Returns
+        -------
+        angles : (6, 16, N) array
+            Radians.
+        apart : (16, N) array
+            How far each is from real, radians; those that are come first.
+        """
+        links = [*self.links[: self.place], link, *self.links[self.place + 1 :]]
+        if self.place in (2, 3, 4):
+            of_three, (constant, free) = _of_three(*links[2:5]), self._same_of_two
+        else:
+            of_three, (constant, free) = self._same_of_three, _of_two(links[5], *links[:2])
+        if free.shape[2] > 6:
+            free = free @ np.linalg.svd(free.swapaxes(1, 2) @ of_three)[0][:, :, :6]
+        six = free.swapaxes(1, 2) @ (of_three - constant * _ONE_IN_POWERS)
+        middle_three, apart = _middle_three(six)
+        return _all_six(links, middle_three), apart
+
+    @cached_property
+    def _same_of_three(self) -> np.ndarray:
+        return _of_three(*self.links[2:5])
+
+    @cached_property
+    def _same_of_two(self) -> tuple[np.ndarray, np.ndarray]:
+        return _of_two(self.links[5], *self.links[:2])
+
+
+def _of_three(B2: np.ndarray, B3: np.ndarray, B4: np.ndarray) -> np.ndarray:
+    """The fourteen products in c, d and e: coefficients of powers of the tangents of their halves, (N, 14, 27)."""
+    c, d, e = motion(False, _SAMPLES + _ASIDE[:, None])
+    T = c[:, None, None, None] @ (B2 @ d[:, None, None] @ B3 @ e[:, None] @ B4)
+    return _products(T[..., :3, 3], T[..., :3, 2]).reshape(27, -1, 14).transpose(1, 2, 0) @ _POWERS_OF_THREE
+
+
+def _of_two(B5: np.ndarray, B0: np.ndarray, B1: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The fourteen products in a and b: what they all have, (N, 14, 1), and the combinations that are free of the rest.
+
+    These are columns, (N, 14, 6 or more): eight terms in a and b, some of which may depend on others.
+    """
+    turns = motion(False, _SAMPLES)
+    back = B5 @ turns[:, None, None] @ B0 @ turns[:, None] @ B1
+    R = back[..., :3, :3]
+    p, z = -(R * back[..., :3, 3:]).sum(axis=-2), R[..., 2, :]
+    terms = _products(p, z).reshape(9, -1, 14).transpose(1, 2, 0) @ _HARMONICS_OF_TWO
+    left, sizes, _ = np.linalg.svd(terms[:, :, 1:])
+    rank = int((sizes > _RANK * sizes[:, :1]).sum(axis=1).max(initial=0))
+    return terms[:, :, :1], left[:, :, rank:]
+
+
+def _products(p: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """The fourteen products of points and axes (..., 3), (..., 14)."""
+    pp, pz = (p * p).sum(-1, keepdims=True), (p * z).sum(-1, keepdims=True)
+    return np.concatenate([p, z, cross(p, z), pp * z - 2 * pz * p, pp, pz], axis=-1)
+
+
+def _middle_three(six: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """c, d and e (3, 16, N) of six equations (N, 6, 27) in powers of tangents, and how far each is from real (16, N)."""
+    count = len(six)
+    rows = np.zeros((count, 12, 3, 4, 3))
+    rows[:, :6, :, :3] = rows[:, 6:, :, 1:] = six.reshape(count, 6, 3, 3, 3)
     companion = np.zeros((count, 24, 24))
     companion[:, :12, 12:] = np.eye(12)
-    companion[:, 12:] = -_solved(M[2] + _NOISE, np.concatenate([M[0], M[1]], axis=2))
+    companion[:, 12:] = -_solved(rows[:, :, 2].reshape(count, 12, 12) + _NOISE, rows[:, :, :2].reshape(count, 12, 24))
     roots, vectors = np.linalg.eig(companion)
     apart = 2 * np.abs(roots.imag) / (1 + np.abs(roots) ** 2)
-    kept = np.argsort(apart, axis=1)[:, :MOST]
-    roots = np.take_along_axis(roots, kept, axis=1)
-    powers = np.take_along_axis(vectors[:, :12], kept[:, None], axis=2).reshape(count, 4, 3, MOST)
-    t = roots.real.T, _ratio(powers[:, :-1], powers[:, 1:]), _ratio(powers[:, :, :-1], powers[:, :, 1:])
-    c, d, e = (2 * np.arctan(each) + aside for each, aside in zip(t, _ASIDE))
-    return np.stack(_others(links, c, d, e)), np.take_along_axis(apart, kept, axis=1).T
+    pose, kept = np.arange(count)[:, None], np.argsort(apart, axis=1)[:, :MOST]
+    powers = vectors[pose, :12, kept].reshape(count, MOST, 4, 3)
+    t = roots.real[pose, kept], _ratio(powers[:, :, :-1], powers[:, :, 1:]), _ratio(powers[..., :-1], powers[..., 1:])
+    return (2 * np.arctan(t) + _ASIDE[:, None, None]).swapaxes(1, 2), apart[pose, kept].T
 
 
 def _solved(A: np.ndarray, B: np.ndarray) -> np.ndarray:
@@ -91,62 +135,38 @@ def _solved(A: np.ndarray, B: np.ndarray) -> np.ndarray:
         return np.linalg.pinv(A, rcond=1e-14) @ B
 
 
-def _six_free_of(terms: np.ndarray, rest: np.ndarray) -> np.ndarray:
-    """Six combinations (N, 14, 6) of fourteen equations without terms (N, 14, 8), and with most of rest (N, 14, 27)."""
-    left, sizes, _ = np.linalg.svd(terms)
-    rank = int((sizes > _RANK * sizes[:, :1]).sum(axis=1).max(initial=0))
-    free = left[:, :, rank:]
-    if rank == 8:
-        return free
-    return free @ np.linalg.svd(free.swapaxes(1, 2) @ rest)[0][:, :, :6]
-
-
-def _products(T: np.ndarray) -> np.ndarray:
-    """The fourteen products of the origin p and the axis z of transforms (..., 4, 4), (..., 14)."""
-    p, z = T[..., :3, 3], T[..., :3, 2]
-    pp, pz = (p * p).sum(-1, keepdims=True), (p * z).sum(-1, keepdims=True)
-    return np.concatenate([p, z, np.cross(p, z), pp * z - 2 * pz * p, pp, pz], axis=-1)
-
-
 def _ratio(lower: np.ndarray, upper: np.ndarray) -> np.ndarray:
-    """What lower (N, i, j, K) must be multiplied by to give upper, (K, N)."""
-    across = (np.conj(lower) * upper).sum(axis=(1, 2)).real
-    return (across / np.maximum((np.abs(lower) ** 2).sum(axis=(1, 2)), 1e-300)).T
+    """What lower (N, K, i, j) must be multiplied by to give upper, (N, K)."""
+    lower_conjugate = lower.conj()
+    across = np.einsum("nkij,nkij->nk", lower_conjugate, upper).real
+    return across / np.maximum(np.einsum("nkij,nkij->nk", lower_conjugate, lower).real, 1e-300)
 
 
-def _others(links: Sequence[np.ndarray], c: np.ndarray, d: np.ndarray, e: np.ndarray) -> tuple[np.ndarray, ...]:
-    """All six angles from three of them, (K, N) each."""
+def _all_six(links: Sequence[np.ndarray], middle_three: np.ndarray) -> np.ndarray:
+    """a to f (6, K, N) from c, d and e (3, K, N)."""
     B0, B1, B2, B3, B4, B5 = links
-    middle = B1 @ motion(False, c) @ B2 @ motion(False, d) @ B3 @ motion(False, e) @ B4
-    p, z = middle[..., :3, 3], middle[..., :3, 2]
-    behind = np.linalg.inv(B5)
-    goal_p, goal_z = behind[:, :3, 3], behind[:, :3, 2]
+    c, d, e = motion(False, middle_three)
+    middle = B1 @ c @ B2 @ d @ B3 @ e @ B4
+    # What z and p are behind a and b does not change in height, distance and product with a. With z and p as the last
+    # index, that makes four equations Re(w e^(ib)) = rest.
     R, shift = B0[:, :3, :3], B0[:, :3, 3]
-    back = np.einsum("nji,nj->ni", R, shift)
-    # Seen from behind a: heights, distance and their product do not change with a, and are affine in b.
-    rows, rest = [], []
-    for ahead, vector, goal in (
-        (R[:, 2], z, goal_z[:, 2]),
-        (R[:, 2], p, goal_p[:, 2] - shift[:, 2]),
-        (back, p, ((goal_p**2).sum(1) - (p * p).sum(-1) - (shift**2).sum(1)) / 2),
-        (back, z, (goal_p * goal_z).sum(1) - (p * z).sum(-1)),
-    ):
-        rows.append(
-            [
-                ahead[:, 0] * vector[..., 0] + ahead[:, 1] * vector[..., 1],
-                ahead[:, 1] * vector[..., 0] - ahead[:, 0] * vector[..., 1],
-            ]
-        )
-        rest.append(goal - ahead[:, 2] * vector[..., 2])
-    x = [sum(row[0] * r for row, r in zip(rows, rest)), sum(row[1] * r for row, r in zip(rows, rest))]
-    m00, m01, m11 = (sum(row[i] * row[j] for row in rows) for i, j in ((0, 0), (0, 1), (1, 1)))
-    b = np.arctan2(m00 * x[1] - m01 * x[0], m11 * x[0] - m01 * x[1])
+    ahead = np.stack([R[:, 2], (R * shift[:, :, None]).sum(axis=1)], axis=1)
+    goal, z, p = np.linalg.inv(B5)[:, :3, 2:], middle[..., :3, 2], middle[..., :3, 3]
+    rest = -ahead[:, :, 2:] * middle[..., None, 2, 2:]
+    rest[..., 0, :] += goal[:, 2]
+    rest[..., 0, 1] -= shift[:, 2]
+    rest[..., 1, 0] += (goal[:, :, 0] * goal[:, :, 1]).sum(axis=-1) - (z * p).sum(axis=-1)
+    rest[..., 1, 1] += ((goal[:, :, 1] ** 2 - shift**2).sum(axis=-1) - (p * p).sum(axis=-1)) / 2
+    w = (ahead[:, :, 0] - 1j * ahead[:, :, 1])[:, :, None] * _in_plane(middle)[..., None, :]
+    sums = ((rest * w.conj()).sum(axis=(2, 3)), (w * w.conj()).sum(axis=(2, 3)), (w * w).sum(axis=(2, 3)))
+    b = np.angle(sums[1] * sums[0] - (sums[2] * sums[0]).conj())
     seen = B0 @ motion(False, b) @ middle
-    along = sum(
-        (goal[:, 0] + 1j * goal[:, 1]) * np.conj(vector[..., 0] + 1j * vector[..., 1])
-        for goal, vector in ((goal_p, seen[..., :3, 3]), (goal_z, seen[..., :3, 2]))
-    )
-    a = np.angle(along)
-    last = np.linalg.inv(B5 @ motion(False, a) @ seen)
-    f = np.arctan2(last[..., 1, 0] - last[..., 0, 1], last[..., 0, 0] + last[..., 1, 1])
-    return a, b, c, d, e, f
+    a = np.angle((_in_plane(goal) * _in_plane(seen).conj()).sum(axis=-1))
+    back = B5 @ motion(False, a) @ seen
+    f = np.arctan2(back[..., 0, 1] - back[..., 1, 0], back[..., 0, 0] + back[..., 1, 1])
+    return np.stack([a, b, *middle_three, f])
+
+
+def _in_plane(T: np.ndarray) -> np.ndarray:
+    """x + iy of the last two columns (the axis and the point) of (..., 3 or 4, 2 or 4) arrays, (..., 2)."""
+    return T[..., 0, -2:] + 1j * T[..., 1, -2:]

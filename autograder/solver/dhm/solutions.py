@@ -148,7 +148,7 @@ class Batch:
         flags = [int(each) for each in self.flags[index, rows]]
         turns = self.q.shape[1] // self.model.branch_count
         labels = tuple(self.model.label(int(row) // turns, each) for row, each in zip(rows, flags))
-        free_by_row = tuple(self.model.free(each) for each in flags)
+        free_by_row = tuple(self.model.free(each) if each else "" for each in flags)
         free = "; ".join(dict.fromkeys(text for text in free_by_row if text))
         status = Status(str(_status(self.valid[index], self.flags[index])))
         excess = float(self.excess[index]) if status == Status.UNREACHABLE else 0.0
