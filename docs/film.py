@@ -15,7 +15,7 @@ from dhkit.scene import Scene
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parent / "tests/dhkit"))
 
-from test_scene_in_browser import GRIP, Tab  # noqa: E402
+from browser import GRIP, Tab  # noqa: E402
 
 WIDTH, HEIGHT = 760, 470
 RX90 = robots.RX90

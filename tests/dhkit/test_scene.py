@@ -7,10 +7,12 @@ import shutil
 import subprocess
 import sys
 import tomllib
+import types
 import zipfile
 from html.parser import HTMLParser
 from pathlib import Path
 
+import anywidget
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -229,6 +231,21 @@ def test_a_scene_is_a_widget_with_the_still_drawing_beside_it(watched):
     assert int.from_bytes(scene.still()[16:20]) // 2 == metadata["image/png"]["width"]
     assert bundle["text/plain"] == "robot with 4 joints: θ₁, θ₂, d₂, θ₄"
     assert not plt.get_fignums()
+
+
+def test_in_colab_a_scene_names_the_program_for_widgets_of_others(monkeypatch, watched):
+    """Colab adds it by itself to what is displayed, not to what ends a cell."""
+    asked = []
+    output = types.ModuleType("google.colab.output")
+    output.enable_custom_widget_manager = lambda: asked.append(True)
+    output._widgets = types.SimpleNamespace(_installed_url="https://colab.example/manager.js")
+    monkeypatch.setitem(sys.modules, "google.colab.output", output)
+    anywidget._util.enable_custom_widget_manager_once.cache_clear()
+    bundle, metadata = Scene(SCARA, LENGTHS)._repr_mimebundle_()
+    anywidget._util.enable_custom_widget_manager_once.cache_clear()
+    assert asked == [True]
+    assert metadata[WIDGET]["colab"]["custom_widget_manager"]["url"] == "https://colab.example/manager.js"
+    assert base64.b64decode(bundle["image/png"]).startswith(PNG) and metadata["image/png"]["width"] > 0
 
 
 def test_kernel_and_browser_share_the_posture(watched):
