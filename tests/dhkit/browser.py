@@ -22,7 +22,7 @@ CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", 
 without_browser = pytest.mark.skipif(
     CHROMIUM is None or websocket is None, reason="chromium, or websocket-client, which speaks to it, is not installed"
 )
-KEYS = {"ArrowRight": 39, "ArrowLeft": 37, "ArrowUp": 38, "Home": 36}
+KEYS = {"ArrowRight": 39, "ArrowLeft": 37, "ArrowUp": 38, "ArrowDown": 40, "Home": 36}
 
 
 class Tab:
@@ -48,6 +48,7 @@ class Tab:
             page = next(target for target in json.load(answer) if target["type"] == "page")
         self.socket = websocket.create_connection(page["webSocketDebuggerUrl"], suppress_origin=True, timeout=120)
         self.numbers, self.events = count(), []
+        self.tell("Emulation.setFocusEmulationEnabled", enabled=True)  # else the address bar may have it
         self.resize(width, height)
 
     def resize(self, width, height):

@@ -43,9 +43,9 @@ MANAGER = """<!doctype html><meta charset="utf-8"><title>frame</title><div id="o
 </script>"""
 
 
-@pytest.fixture(scope="module")
-def tab(tmp_path_factory):
-    tab = Tab(tmp_path_factory.mktemp("profile"), 1200, 900)
+@pytest.fixture
+def tab(tmp_path):
+    tab = Tab(tmp_path, 1200, 900)
     yield tab
     tab.close()
 
@@ -77,14 +77,18 @@ def served():
         server.server_close()
 
 
-def test_the_widget_needs_no_more_than_it_is_promised(tab, served, monkeypatch):
+def literal(value):
+    """JavaScript for a value, which no "<" in it ends."""
+    return json.dumps(value).replace("<", "\\u003c")
+
+
+def test_the_widget_needs_no_more_than_it_is_promised(tab, served):
     from dhkit.scene import Scene
     from dhkit.scene.widget import PROGRAM
 
     state = Scene(PLANAR[:2], q=[0.2, 1.0], tool=np.diag([1.0, 1, 1, 1])).ghosts([[0.9, -1.0]]).state()
-    as_text = (json.dumps(each).replace("<", "\\u003c") for each in (state, PROGRAM))
-    page = MANAGER.replace("STATE", next(as_text), 1).replace("PROGRAM", next(as_text), 1)
-    monkeypatch.setattr(tab, "root", "document.getElementById('output')?.shadowRoot.firstElementChild?.shadowRoot")
+    page = MANAGER.replace("STATE", literal(state), 1).replace("PROGRAM", literal(PROGRAM), 1)
+    tab.root = "document.getElementById('output')?.shadowRoot.firstElementChild?.shadowRoot"
     tab.open(served(page))
     assert tab.ask("origin") == "null"
     assert (tab.picture()[..., 3] > 0).mean() > 0.05
@@ -110,7 +114,7 @@ def both(T):
 scene = Scene([[0, 0, 0, 0, 0.2], [0, 0.5, 0, 0, 1.0], [0, 0.4, 0, 0, 0]], tool=True, inverse=both)
 scene"""
 SCENES = "[...document.querySelectorAll('*')].flatMap((each) => each.shadowRoot?.querySelector('.scene') ? [each.shadowRoot] : [])"
-APP = "globalThis.jupyterapp ?? globalThis.jupyterlab"
+BOOK = "[...(globalThis.jupyterapp?.shell.widgets('main') ?? [])].find((each) => each.sessionContext)"
 
 
 @pytest.fixture(scope="module")
@@ -118,7 +122,7 @@ def jupyter(tmp_path_factory):
     """A server of JupyterLab and Notebook 7 with one notebook, whose settings are nobody's: its address."""
     pytest.importorskip("jupyterlab", reason="JupyterLab is not installed")
     home = tmp_path_factory.mktemp("jupyter")
-    nbformat.write(new_notebook(cells=[new_code_cell(CELL)], metadata=PYTHON_3), home / "arm.ipynb")
+    nbformat.write(new_notebook(cells=[new_code_cell(CELL), new_code_cell("1")], metadata=PYTHON_3), home / "arm.ipynb")
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
@@ -151,13 +155,15 @@ def jupyter(tmp_path_factory):
 
 
 @pytest.mark.parametrize("place", ["lab/tree/arm.ipynb", "notebooks/arm.ipynb"], ids=["lab", "notebook"])
-def test_a_scene_lives_in_jupyter(tab, jupyter, monkeypatch, place):
+def test_a_scene_lives_in_jupyter(tab, jupyter, place):
     if place.startswith("notebooks"):
         pytest.importorskip("notebook", minversion="7", reason="Notebook 7 is not installed")
-    monkeypatch.setattr(tab, "root", f"{SCENES}[0]")
-    tab.tell("Page.navigate", url=f"{jupyter}/{place}?reset")
-    tab.until(f"({APP})?.shell.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'")
-    tab.ask(f"({APP}).commands.execute('notebook:run-all-cells')")
+    tab.root = f"{SCENES}[0]"
+    tab.tell("Page.navigate", url=f"{jupyter}/{place}")
+    tab.until(f"{BOOK}?.sessionContext.session?.kernel?.status === 'idle'")
+    tab.ask(f"jupyterapp.shell.activateById({BOOK}.id)")
+    tab.until("!!jupyterapp.shell.currentWidget")
+    tab.ask("jupyterapp.commands.execute('notebook:run-all-cells')")
     tab.until("!!root?.querySelector('.label')")
     before = tab.picture()
     assert (before[..., 3] > 0).mean() > 0.05
@@ -170,8 +176,13 @@ def test_a_scene_lives_in_jupyter(tab, jupyter, monkeypatch, place):
     tab.ask("root.querySelectorAll('[aria-label=postures] button')[1].click()")
     tab.until(f"{bends}.join() === 'false,true'")
     assert numbers(tab.ask(READOUTS))[1] == pytest.approx(-first[1], abs=0.2)
-    # The notebook keeps its own keys out of the scene's.
+    # Its keys move the joint, or the camera, and not the notebook to its next cell.
     tab.ask("root.querySelector('input[type=range]').focus()")
     turned = numbers(tab.ask(READOUTS))[0]
-    tab.press("ArrowRight", 3)
-    assert numbers(tab.ask(READOUTS))[0] == pytest.approx(turned + 3, abs=1)
+    tab.press("ArrowDown", 3)
+    assert numbers(tab.ask(READOUTS))[0] == pytest.approx(turned - 3, abs=1)
+    tab.ask("root.querySelector('canvas').focus()")
+    before = tab.picture()
+    tab.press("ArrowDown", 3)
+    assert shares(tab.picture(), before) > 0.05
+    assert tab.ask(f"{BOOK}.content.activeCellIndex") == 0

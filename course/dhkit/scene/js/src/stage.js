@@ -30,6 +30,20 @@ function watchTheme(element, apply) {
   return { look, forget };
 }
 
+/**
+ * While something in the element has the focus, plain keys are its own: JupyterLab and Notebook, which hear of a key before
+ * it does and would move to another cell, leave alone what carries this attribute. Keys with Ctrl stay theirs.
+ */
+function keepKeys(element) {
+  const look = (event) => {
+    if (!event.composedPath().includes(element)) return;
+    const theirs = event.ctrlKey || event.metaKey || event.altKey || event.key === "Escape" || (event.shiftKey && event.key === "Enter");
+    element.toggleAttribute("data-lm-suppress-shortcuts", !theirs);
+  };
+  addEventListener("keydown", look, true);
+  return () => removeEventListener("keydown", look, true);
+}
+
 /** Whether the reader wants nothing to move by itself. */
 export const calm = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 
@@ -89,6 +103,7 @@ export function raise(element, words, picture, show, handlers) {
     root.classList.toggle("dark", name === "dark");
     view.theme = name;
   });
+  const leaveKeys = keepKeys(element);
   const size = new ResizeObserver(() => {
     theme.look();
     view.resize(stage.clientWidth, stage.clientHeight);
@@ -97,6 +112,7 @@ export function raise(element, words, picture, show, handlers) {
   const open = () => size.observe(stage);
   const dispose = () => {
     theme.forget();
+    leaveKeys();
     size.disconnect();
     view.dispose();
   };
