@@ -2,7 +2,9 @@
 
 With the pose U_0 of the last frame, ``iT0 U_0 nTk = (i+1 ... k)``: the matrices of known joints go to the left, and where
 an element holds one unknown, or two elements hold two, they are of one of the types 1 to 8 of Khalil and Dombre. Angles
-of parallel axes stay sums, which count as unknowns of their own (theta_23).
+of parallel axes stay sums, which count as unknowns of their own (theta_23). As soon as the first joints are known, the pose
+is seen from the frame behind them, and what it is there has a name: the F, G, H of Khalil and Dombre are s, n, a seen from
+frame 3.
 
 Source: R. Paul, "Robot Manipulators", 1981; W. Khalil, E. Dombre, "Modeling, Identification and Control of Robots", 2002,
 chapter 4.
@@ -36,6 +38,7 @@ _GENERIC = 1e-9  # of a value in a posture in general position, under which an e
 _POINTS = 4  # such postures
 _MOST_ON_THE_LEFT = 4  # matrices beside U0: with more of them nothing is easier
 _ANGLE_AND_SLIDE, _TWO_ANGLES = 2, 5  # ranks of steps with two unknowns, among those with one
+_WORTH_A_NAME = 3  # joints that are left, so that to see the pose from a later frame is worth the names
 _SHORTEST = 8  # equations that are looked at for each unknown
 
 
@@ -99,11 +102,15 @@ class Step:
     equations : tuple of Equation
     solved : tuple of Solved
         In the order in which they are computed.
+    seen : tuple of (Symbol, expression)
+        Entries of the pose seen from a later frame that this step is the first to use, in the order in which they are
+        computed.
     """
 
     kind: int
     equations: tuple[Equation, ...]
     solved: tuple[Solved, ...]
+    seen: tuple[tuple[sp.Symbol, sp.Expr], ...] = ()
 
     @property
     def unknowns(self) -> tuple[sp.Symbol, ...]:
@@ -172,21 +179,22 @@ class Closure:
         """
         self.rows, self.unknowns, self.tip = tuple(rows), tuple(unknowns), tip
         self.angles = Angles(tuple(u for u, row in zip(unknowns, rows) if not row.sigma))
+        self.frame, self.given, self.seen = 0, U0 if tip is None else U0[:, 3], dict[sp.Symbol, sp.Expr]()
         self._linear: dict[tuple, tuple[list, sp.Expr] | None] = {}
         self._points = [self._point(seed) for seed in range(_POINTS)]
+        self.equations = self._equations()
 
-    @cached_property
-    def equations(self) -> list[Equation]:
-        """All of them whose left sides are not too long, shortest first."""
+    def _equations(self) -> list[Equation]:
+        """All of the pose seen from the present frame whose left sides are not too long, shortest first."""
         found: dict[sp.Expr, Equation] = {}
         count = len(self.rows)
         behind = {count: sp.eye(4)}
         for last in reversed(range(1, count)):
             behind[last] = behind[last + 1] * _inverse(self.rows[last : last + 1])
-        for last in [count] if self.tip is not None else range(1, count + 1):
-            given = U0 * behind[last] if self.tip is None else U0[:, 3]
-            for first in range(min(last, _MOST_ON_THE_LEFT + 1 - (count - last))):
-                left = _inverse(self.rows[:first]) * given
+        for last in [count] if self.tip is not None else range(count, 0, -1):
+            given = self.given * behind[last] if self.tip is None else self.given
+            for first in range(self.frame, min(last, self.frame + _MOST_ON_THE_LEFT + 1 - (count - last))):
+                left = _inverse(self.rows[self.frame : first]) * given
                 right = merged_runs(self.rows[first:last])
                 right = right if self.tip is None else right * self.tip
                 for row, column in product(range(3), range(left.shape[1])):
@@ -195,6 +203,24 @@ class Closure:
                     if self._unknowns_in(equation.difference):
                         found.setdefault(equation.difference, equation)
         return sorted(found.values(), key=lambda each: (each.size, -each.element[1]))
+
+    def _look_from(self, frame: int) -> None:
+        """See the pose from another frame, with a name for every entry that is more than one of before."""
+        entries = (_inverse(self.rows[self.frame : frame]) * self.given).applyfunc(self.angles.in_symbols)
+        columns = U0 if self.tip is None else U0[:, 3]
+        for row, column in product(range(3), range(columns.shape[1])):
+            if entries[row, column].count_ops() > 1:
+                name = sp.Symbol(f"{columns[row, column]}_{frame}")
+                self.seen[name], entries[row, column] = entries[row, column], name
+        self.frame, self.given = frame, entries
+        self.equations = self._equations()
+
+    def _last_frame(self, known: set[sp.Symbol]) -> int:
+        """The last frame that known joints lead to and that no parallel axis follows."""
+        count = next((i for i, unknown in enumerate(self.unknowns) if unknown not in known), len(self.rows))
+        while 0 < count < len(self.rows) and sp.cos(self.rows[count].alpha) in (1, -1):
+            count -= 1
+        return count
 
     def _unknowns_in(self, expression: sp.Expr) -> set[sp.Symbol]:
         return expression.free_symbols & {*self.unknowns, *self.angles.sums}
@@ -216,11 +242,30 @@ class Closure:
             known |= set(step.unknowns)
             following = tuple(self.angles.following(known))
             steps.append(Step(step.kind, step.equations, step.solved + following))
+            if self.frame < self._last_frame(known) <= len(self.rows) - _WORTH_A_NAME:
+                self._look_from(self._last_frame(known))
+        steps = list(self._with_seen(steps))
         return [replace(step, solved=tuple(self._wanted(steps, i))) for i, step in enumerate(steps)]
+
+    def _with_seen(self, steps: Sequence[Step]) -> Iterator[Step]:
+        """The steps with the names that each of them is the first to use."""
+        told: set[sp.Symbol] = set()
+        for step in steps:
+            parts = [each.difference for each in step.equations] + [
+                p for each in step.solved for p in each.coefficients
+            ]
+            wanted = set().union(*(part.free_symbols for part in parts))
+            for name in reversed(self.seen):  # names of a later frame are made of those of an earlier one
+                if name in wanted:
+                    wanted |= self.seen[name].free_symbols
+            seen = tuple((name, self.seen[name]) for name in self.seen if name in wanted - told)
+            told |= wanted
+            yield replace(step, seen=seen)
 
     def _wanted(self, steps: Sequence[Step], index: int) -> Iterator[Solved]:
         """What is solved in a step, without sums that nothing asks for later."""
         later = [part for step in steps[index + 1 :] for each in step.solved for part in each.coefficients]
+        later += [entry for step in steps[index + 1 :] for _, entry in step.seen]
         for each in steps[index].solved:
             wanted = each.helper != "sum" or each.unknown in self.unknowns
             if wanted or any(part.has(each.unknown) for part in later):
@@ -263,7 +308,7 @@ class Closure:
             if rows:
                 equation, row = min(rows, key=lambda each: each[0].size)
                 yield (4, *self._rank(symbol)), Step(2, (equation,), (Solved(symbol, "type2", row),))
-            for constant, ((one, first), (two, second)) in self._independent(rows):
+            for constant, ((one, first), (two, second)) in self._independent(rows, symbol):
                 solved = Solved(symbol, "type3", (*first, *second))
                 yield (1 if constant else 3, *self._rank(symbol)), Step(3, (one, two), (solved,))
 
@@ -271,7 +316,7 @@ class Closure:
         """Whether the right side holds this unknown and no other, and the left side not."""
         return self._unknowns_in(equation.right) == {symbol} and not equation.left.has(symbol)
 
-    def _independent(self, rows: list) -> Iterator[tuple[bool, tuple]]:
+    def _independent(self, rows: list, symbol: sp.Symbol) -> Iterator[tuple[bool, tuple]]:
         """Of rows X S + Y C = Z the best pair that gives S and C: if possible one whose determinant never vanishes."""
         ranked = []
         for order, (one, two) in enumerate(combinations(rows, 2)):
@@ -280,7 +325,8 @@ class Closure:
             if not self._vanishes(determinant):
                 constant = self._constant(determinant)
                 apart = (one[0].first, one[0].last) != (two[0].first, two[0].last)
-                ranked.append(((not constant, apart, order), constant, (one, two)))
+                mixed = sum(not self._plain(each[0], symbol) for each in (one, two))
+                ranked.append(((not constant, mixed, apart, order), constant, (one, two)))
         if ranked:
             _, constant, pair = min(ranked, key=lambda each: each[0])
             yield constant, pair
@@ -289,7 +335,7 @@ class Closure:
         """Steps of the types 4 to 8, each with its rank."""
         for symbols, equations in self._with_unknowns(known, 2).items():
             turns = [self._turns(symbol) for symbol in symbols]
-            pairs = sorted(combinations(equations[:_SHORTEST], 2), key=lambda pair: pair[0].size + pair[1].size)
+            pairs = sorted(combinations(equations[:_SHORTEST], 2), key=lambda pair: self._length(pair, symbols))
             for pair in pairs if any(turns) else ():
                 if all(turns):
                     step, rank = self._two_angles(pair, symbols, known), _TWO_ANGLES
@@ -297,8 +343,13 @@ class Closure:
                     angle, slide = sorted(symbols, key=self._turns, reverse=True)
                     step, rank = self._angle_and_slide(pair, angle, slide), _ANGLE_AND_SLIDE
                 if step is not None:
-                    yield (rank, 0, pair[0].size + pair[1].size), step
+                    yield (rank, *self._length(pair, symbols)), step
                     break
+
+    def _length(self, pair: tuple[Equation, Equation], symbols: tuple[sp.Symbol, ...]) -> tuple[int, int]:
+        """How many left sides hold what is unknown, and how long both equations are to read."""
+        mixed = sum(each.left.has(*symbols) for each in pair)
+        return mixed, pair[0].size + pair[1].size
 
     def _two_angles(
         self, pair: tuple[Equation, Equation], symbols: tuple[sp.Symbol, sp.Symbol], known: set[sp.Symbol]
@@ -398,7 +449,7 @@ class Closure:
 
     def _constant(self, expression: sp.Expr) -> bool:
         """Whether it has one value in all postures, whatever the lengths are."""
-        if not expression.free_symbols & {*self.unknowns, *self.angles.sums, *U0.free_symbols}:
+        if not expression.free_symbols & {*self.unknowns, *self.angles.sums, *U0.free_symbols, *self.seen}:
             return True
         values = [self._at(expression, which) for which in range(1, _POINTS)]
         return max(values) - min(values) <= _GENERIC
@@ -407,7 +458,7 @@ class Closure:
         """The value in one of some postures in general position."""
         point = self._points[which]
         for symbol in expression.free_symbols - point.keys():
-            point[symbol] = float(self.angles.sums[symbol].subs(point))
+            point[symbol] = sp.Float(self._at(self.angles.sums.get(symbol, self.seen.get(symbol)), which))
         return float(expression.xreplace(point))
 
     def _point(self, seed: int) -> dict[sp.Symbol, float]:

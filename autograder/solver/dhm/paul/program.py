@@ -158,6 +158,7 @@ def _search(setting: Setting, steps: Sequence[Step], code: Code) -> Iterator[str
     else:
         yield f"    {', '.join(map(str, U0[:3, 3]))} = (np.linalg.inv(BASE) @ T)[:3, 3].tolist()"
     used = set().union(*(part.free_symbols for step in steps for each in step.solved for part in each.coefficients))
+    used |= set().union(*(entry.free_symbols for step in steps for _, entry in step.seen))
     used |= set().union(*(offset.free_symbols for _, _, offset in setting.joints))
     yield from (
         f"    {letter} = {setting.values[letter]!r}" for letter in sorted(used & setting.values.keys(), key=str)
@@ -167,6 +168,7 @@ def _search(setting: Setting, steps: Sequence[Step], code: Code) -> Iterator[str
     for place, step in enumerate(steps, start=1):
         said = " and ".join(f"{code(each.left)} = {code(each.right)}" for each in step.equations)
         yield "    " * depth + f"# step {place}, type {step.kind}: {said}"
+        yield from ("    " * depth + f"{name} = {code(entry)}" for name, entry in step.seen)
         for each in step.solved:
             yield from _line(each, depth, code)
             depth += each.helper != "sum"

@@ -1,12 +1,17 @@
-"""What a derivation starts from: the table in letters, the pose that is given, and what the letters stand for."""
+"""What a derivation starts from: the table in letters, the pose that is given, and what the letters stand for.
+
+As Khalil and Kleinfinger place the outer frames: frame 0 where frame 1 is at q_1 = 0, frame n so that d_n = 0. What a table
+has there all the same belongs to the base and to the tool.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import sympy as sp
 
 from ..tables import DHRow, DHTable
+from ..transforms import rot_x, rot_z, trans_x, trans_z
 
 
 @dataclass(frozen=True)
@@ -72,13 +77,31 @@ def setting_of(table: DHTable, point: bool) -> Setting:
         rows.append(DHRow(row.sigma, a, alpha, *((unknown, constant) if row.sigma else (constant, unknown))))
         unknowns.append(unknown)
         joints.append((joint, int(sign), offset))
-    tool = sp.eye(4)
+    before, rows[0] = _base_and_rest(rows[0])
+    behind = sp.eye(4)
+    if not point:
+        rows[-1], behind = _rest_and_tool(rows[-1])
     for row in table.rows[len(rows) :]:
-        tool = tool * row.transform()
-    tool = sp.ImmutableMatrix(tool * table.tool)
+        behind = behind * row.transform()
+    base, tool = sp.ImmutableMatrix(table.base * before), sp.ImmutableMatrix(behind * table.tool)
     tip = None
     if point:
         entries = [lettered(entry, f"p_{letter}", False) for entry, letter in zip(tool[:3, 3], "xyz")]
         tip = sp.ImmutableMatrix([*entries, 1])
-    ends = (sp.ImmutableMatrix(table.base), tool, tip)
-    return Setting(table.name, tuple(rows), tuple(unknowns), tuple(joints), *ends, values)
+    return Setting(table.name, tuple(rows), tuple(unknowns), tuple(joints), base, tool, tip, values)
+
+
+def _base_and_rest(row: DHRow) -> tuple[sp.Matrix, DHRow]:
+    """The first row as a constant transform and a row with nothing but its joint."""
+    before = trans_x(row.a) * rot_x(row.alpha)
+    zero = sp.S.Zero
+    if row.sigma:
+        return before * rot_z(row.theta), DHRow(1, zero, zero, row.d, zero)
+    return before * trans_z(row.d), DHRow(0, zero, zero, zero, row.theta)
+
+
+def _rest_and_tool(row: DHRow) -> tuple[DHRow, sp.Matrix]:
+    """The last row without its constant, which does not care whether it comes before or behind the joint."""
+    if row.sigma:
+        return replace(row, theta=sp.S.Zero), rot_z(row.theta)
+    return replace(row, d=sp.S.Zero), trans_z(row.d)

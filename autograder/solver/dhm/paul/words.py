@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
+from itertools import groupby
 
 import sympy as sp
 
@@ -22,9 +24,15 @@ _TYPES = {
 """The types of equations of Khalil and Dombre."""
 
 
+_SEEN = re.compile(r"[snaP]_[xyz]_\d+").fullmatch
+
+
 def written(setting: Setting, steps: Sequence[Step], why: str) -> str:
     """The derivation in Markdown."""
     parts = [f"## Inverse model of {setting.name or 'the robot'}", *_given(setting)]
+    if len(steps) > 1:
+        order = (", ".join(f"${formula(each)}$" for each in sorted(step.unknowns, key=str)) for step in steps)
+        parts.append(f"In this order: {'; '.join(order)}.")
     for number, step in enumerate(steps, start=1):
         unknowns = " and ".join(f"${formula(unknown)}$" for unknown in sorted(step.unknowns, key=str))
         parts.append(f"### Step {number}: {unknowns} (type {step.kind})")
@@ -42,16 +50,21 @@ def formula(expression: sp.Expr) -> str:
         if f.args[0].is_Symbol and f.args[0].name.startswith("theta_")
     }
     shown = expression.xreplace(short)
-    names = {
-        s: f"{s.name[0] if s.name[0] in 'CS' else chr(92) + 'theta'}_{{{_index(s)}}}".replace("m", "-")
-        for s in shown.free_symbols
-        if s.name[:2] in ("C_", "S_") or s.name.startswith("theta_")
-    }
+    names = {s: _name(s) for s in shown.free_symbols if s.name.startswith(("C_", "S_", "theta_")) or _SEEN(s.name)}
     return sp.latex(shown, symbol_names=names)
 
 
 def _index(symbol: sp.Symbol) -> str:
     return symbol.name.partition("_")[2]
+
+
+def _name(symbol: sp.Symbol) -> str:
+    """A symbol in LaTeX: C_23, theta_2, or an entry of the pose with the frame that it is seen from."""
+    if symbol.name[:2] in ("C_", "S_") or symbol.name.startswith("theta_"):
+        letter = symbol.name[0] if symbol.name[0] in "CS" else "\\theta"
+        return f"{letter}_{{{_index(symbol)}}}".replace("m", "-")
+    entry, axis, frame = symbol.name.split("_")
+    return f"{{}}^{{{frame}}}{entry}_{{{axis}}}"
 
 
 def _given(setting: Setting) -> Iterator[str]:
@@ -82,6 +95,7 @@ def _stripped(setting: Setting) -> str:
 
 def _step(setting: Setting, step: Step) -> Iterator[str]:
     count, point = len(setting.rows), setting.tip is not None
+    yield from _seen(step, point)
     lines = []
     for equation in step.equations:
         row, column = (index + 1 for index in equation.element)
@@ -92,9 +106,19 @@ def _step(setting: Setting, step: Step) -> Iterator[str]:
     yield "\n".join(lines)
     yield f"Type {step.kind}: {_TYPES[step.kind]}."
     if step.kind > 3:
-        yield "Squared and added, one unknown is left:"
+        gone = next(each.unknown for each in step.solved if each.helper == "type3")
+        yield f"Squared and added, they hold no ${formula(gone)}$ any more:"
     for each in step.solved:
         yield _solved(each)
+
+
+def _seen(step: Step, point: bool) -> Iterator[str]:
+    """What the pose is seen from later frames, as far as the step needs it."""
+    for frame, several in groupby(step.seen, key=lambda each: each[0].name.rpartition("_")[2]):
+        pose = "P" if point else "U_0"
+        yield f"Seen from frame {frame}, the pose is ${{}}^{{{frame}}}T_0\\,{pose}$; in it"
+        for name, entry in several:
+            yield f"$${formula(name)} = {formula(entry)}$$"
 
 
 def _matrices(equation: Equation, count: int, point: bool) -> str:
@@ -138,25 +162,50 @@ def _pair(each: Solved, index: str, name: str) -> str:
         quotients = f"S_{{{index}}} = {formula(sine / over)}$$\n\n$$C_{{{index}}} = {formula(cosine / under)}"
         return f"$${quotients}$$\n\n$${name} = \\mathrm{{atan2}}(S_{{{index}}}, C_{{{index}}})$$"
     S, C = (sp.Symbol(f"{letter}_{_index(each.unknown)}") for letter in "SC")
-    rows = [f"{formula(X * S + Y * C)} = {formula(Z)}" for X, Y, Z in ((X1, Y1, Z1), (X2, Y2, Z2))]
-    return "\n\n".join(
-        [
-            *(f"$${row}$$" for row in rows),
-            f"two linear equations for $S_{{{index}}}$ and $C_{{{index}}}$ (type 3): $${name} = \\mathrm{{atan2}}(S_{{{index}}}, C_{{{index}}})$$",
-        ]
-    )
+    both = [_positive(row) for row in ((X1, Y1, Z1), (X2, Y2, Z2))]
+    rows = [f"$${formula(X * S + Y * C)} = {formula(Z)}$$" for X, Y, Z in both]
+    result = [f"$${name} = \\mathrm{{atan2}}(S_{{{index}}}, C_{{{index}}})$$"]
+    said = f"two linear equations for $S_{{{index}}}$ and $C_{{{index}}}$ (type 3)"
+    (B2, B1, Z1), (X2, Y2, Z2) = both
+    sense = next((sense for sense in (1, -1) if sp.expand(X2 - sense * B1) == sp.expand(Y2 + sense * B2) == 0), 0)
+    if not sense:
+        return "\n\n".join([*rows, said + ":", *result])
+    z1, z2 = formula(Z1), formula(sense * Z2)
+    solution = [
+        f"$$B_1 = {formula(B1)},\\quad B_2 = {formula(B2)}$$",
+        f"$$Z_1 = {z1},\\quad Z_2 = {z2}$$",
+        f"$$C_{{{index}}} = \\frac{{B_1 Z_1 - B_2 Z_2}}{{B_1^2 + B_2^2}},\\quad "
+        f"S_{{{index}}} = \\frac{{B_2 Z_1 + B_1 Z_2}}{{B_1^2 + B_2^2}}$$",
+    ]
+    return "\n\n".join([*rows, said + ", with the solution", *solution, *result])
+
+
+def _positive(row: tuple[sp.Expr, ...]) -> tuple[sp.Expr, ...]:
+    """Both sides of an equation with the sign that reads better."""
+    minus = [part.could_extract_minus_sign() for part in row if part != 0]
+    return tuple(-part for part in row) if 2 * sum(minus) > len(minus) else row
 
 
 def _end(setting: Setting, steps: Sequence[Step]) -> Iterator[str]:
     offsets = [
-        f"${sp.latex(joint)} = {formula(sign * (unknown - offset))}$"
-        for unknown, (joint, sign, offset) in zip(setting.unknowns, setting.joints)
+        f"${_joint(joint, unknown, place)} = {formula(sign * (unknown - offset))}$"
+        for place, (unknown, (joint, sign, offset)) in enumerate(zip(setting.unknowns, setting.joints), start=1)
         if offset != 0 or sign != 1
     ]
     if offsets:
         yield "The joints are " + ", ".join(offsets) + "; the others are the angles and lengths themselves."
     two = sum(each.helper in ("type2", "quadratic") for step in steps for each in step.solved)
+    many = {
+        0: "No equation has two solutions: there is at most 1 posture",
+        1: "One equation has two solutions: there are at most 2 postures",
+    }
     yield (
-        f"{two} of the equations have two solutions: there are at most {2**two} postures. Those that the direct model does "
-        "not confirm are left out; where both factors of a sine and a cosine vanish, the angle is free."
+        f"{many.get(two, f'{two} of the equations have two solutions: there are at most {2**two} postures')}. Those that the "
+        "direct model does not confirm are left out; where both factors of a sine and a cosine vanish, the angle is free."
     )
+
+
+def _joint(joint: sp.Symbol, unknown: sp.Symbol, place: int) -> str:
+    """A joint's name in LaTeX; q_i where the row's variable has the same one."""
+    name = sp.latex(joint)
+    return f"q_{{{place}}}" if name == formula(unknown) else name
