@@ -272,3 +272,23 @@ def test_models_refuse_tables_of_other_robots(model):
         if robot.model is not model:
             with pytest.raises(ValueError):
                 model(robot.table)
+
+
+@pytest.mark.parametrize("name", ["RX90", "KR210", "EPFL_ARM", "PUMA"])
+@pytest.mark.parametrize("aside", [1e-3, 1e-5, 1e-7])
+def test_beside_several_singularities_near_is_found_again(name, aside):
+    """Where arm and wrist are singular together, rounding makes a line of what are points: near chooses on it.
+
+    It may fail where two limits of the arm meet there too: two of 11,520 poses.
+    """
+    robot, rng = getattr(robots, name), np.random.default_rng(0)
+    q = rng.choice(ROUND, (720, 6)) + aside * rng.normal(size=(720, 6)) * rng.integers(0, 2, (720, 6))
+    T = robot.forward(q)
+    batch = robot.inverse_batch(T, near=q)
+    gap = np.abs(np.angle(np.exp(1j * (batch.q - q[:, None])))).max(axis=-1)
+    assert (np.where(batch.valid, gap, 9).min(axis=1) > 1e-3).sum() <= 1
+    pose, branch = np.nonzero(batch.valid)
+    assert np.abs(robot.forward(batch.q[pose, branch]) - T[pose]).max() < 2e-9
+    apart = np.abs(np.angle(np.exp(1j * (batch.q[:, :, None] - batch.q[:, None])))).max(axis=-1) + 9 * np.eye(8)
+    twice = (apart < 1e-6) & batch.valid[:, :, None] & batch.valid[:, None]
+    assert not twice.any(), "a posture is listed twice"

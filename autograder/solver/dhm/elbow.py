@@ -16,11 +16,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from . import nearly_aligned
 from .forward import Chain
 from .gauge import demand_kinds, demand_length, demand_parallel, demand_square
 from .geometry import phasor, two_link
 from .inverse import Branches, InverseModel, JointMap, translations
 from .shoulder import Shoulder, shoulder
+from .solutions import Batch
 from .status import Failure, Flag, two_link_flags
 from .tables import DHTable
 
@@ -406,6 +408,10 @@ class WristedArm(InverseModel):
         valid[:, :, 1] &= wrist_flags == 0
         flags = np.repeat((arm.flags | wrist_flags)[:, :, None], 2, axis=2)
         return Branches(q.reshape(6, 8, -1), valid.reshape(8, -1), flags.reshape(8, -1), arm.excess, arm.failure)
+
+    def _slide_towards(self, batch: Batch, near: np.ndarray) -> None:
+        super()._slide_towards(batch, near)
+        nearly_aligned.slide(self, batch, near)
 
     def label(self, branch: int, flags: int) -> str:
         return f"{self.arm.label(branch // 2, flags)}, {self.wrist.label(branch % 2, flags)}"

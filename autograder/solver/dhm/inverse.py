@@ -384,14 +384,19 @@ class InverseModel(ABC):
         rows = (batch.flags & Flag.FREE_LINE).astype(bool) & batch.valid
         if self.line is None or not rows.any():
             return
-        i, j, plain, folded = self.line
         pose, _ = np.nonzero(rows)
-        sign = np.where(batch.flags[rows] & Flag.FOLDED_LINE, folded, plain)
-        at_i, at_j = near[i, pose], near[j, pose]
+        batch.q[rows] = self.slid(batch.q[rows], near[:, pose].T, (batch.flags[rows] & Flag.FOLDED_LINE) != 0)
+
+    def slid(self, q: np.ndarray, near: np.ndarray, folded: np.ndarray) -> np.ndarray:
+        """Postures (R, n) with their two aligned joints moved along their line, as near as possible to near (R, n)."""
+        assert self.line is not None
+        i, j, plain, other = self.line
+        sign = np.where(folded, other, plain)
         # Half of what q_i + sign q_j must still change goes to each of the two joints.
-        missing = wrap(batch.q[rows, i] - at_i + sign * (batch.q[rows, j] - at_j))
-        batch.q[rows, i] = wrap(at_i + missing / 2)
-        batch.q[rows, j] = wrap(at_j + sign * missing / 2)
+        missing = wrap(q[:, i] - near[:, i] + sign * (q[:, j] - near[:, j]))
+        q = q.copy()
+        q[:, i], q[:, j] = wrap(near[:, i] + missing / 2), wrap(near[:, j] + sign * missing / 2)
+        return q
 
 
 def translations(points: np.ndarray) -> np.ndarray:
