@@ -52,6 +52,26 @@ SIGNED_ARMS: dict[str, list[list[Expr | int]]] = {
 """Arms of five joints in modified rows ``[sigma, a, alpha, d, theta]``, two of whose twists are negative."""
 
 
+t1, t2, t3, h1, h2, L1, L2, p1 = symbols("t1:4 h1 h2 L1 L2 p1")
+
+PEN_OFFERS: dict[str, list[list[Expr | int]]] = {
+    "link": [[0, 0, 0, h1, t1], [0, L1, -HALF, h2, t2 - HALF], [0, L2, 0, 0, t3], [0, p1, 0, 0, 0]],
+    "upright": [[0, 0, 0, h1, t1], [0, L1, 0, h2, t2], [0, 0, 0, L2, t3], [0, p1, 0, 0, 0]],
+    "ball": [[0, 0, 0, h1, t1], [0, 0, -HALF, 0, t2 - HALF], [0, 0, HALF, 0, t3], [0, p1, 0, 0, 0]],
+    "axle": [[0, 0, 0, h1, t1], [0, L1, -HALF, h2, t2], [0, 0, 0, L2, t3], [0, 0, 0, p1, 0]],
+    "slide": [[0, 0, 0, h1, t1], [0, L1, -HALF, h2, t2 - HALF], [1, 0, 0, d3, 0], [0, p1, 0, 0, 0]],
+    "lifts": [[1, 0, 0, d1, 0], [1, L1, 0, d2, 0], [1, L2, pi, d3, 0], [0, p1, 0, 0, 0]],
+}
+"""Robots with a pen of length p1: three joints each, modified rows ``[sigma, a, alpha, d, theta]``, the pen in the last."""
+
+
+def pen_offers(mine: Mapping[str, object]) -> dict[str, list[list[Expr | int]]]:
+    """The tables of `PEN_OFFERS` under the letters A to F, beginning with the one that is the student's first."""
+    names = [*PEN_OFFERS]
+    first = int(mine["offer"])  # type: ignore[call-overload]
+    return {letter: PEN_OFFERS[name] for letter, name in zip("ABCDEF", names[first:] + names[:first])}
+
+
 @dataclass(frozen=True)
 class Listed:
     """One line of a list of joint origins.

@@ -5,7 +5,6 @@ import sympy
 from answers import STUDENT, right, verdict
 
 from autograder.questions import exercises, find
-from autograder.questions.pen_robot.model import COMMON_SHARES
 
 psi, theta, phi = sympy.symbols("psi theta phi")
 
@@ -55,13 +54,6 @@ def test_no_mistake_gets_the_name_of_another(what):
     id, change, note, words = ONCE_MISNAMED[what]
     found = verdict(find(id), change(right(find(id))))
     assert found.note != note and words in found.feedback, found
-
-
-def test_the_arm_beside_the_tip_is_not_the_direction_of_the_tip():
-    """theta1 = atan2(y, x) + atan2(H, rho) in pen_robot.follow."""
-    question = find("pen_robot.follow")
-    found = verdict(question, question.compute(STUDENT, {"heading": "mirror", "shares": COMMON_SHARES}))
-    assert found.note == "sign_of_the_side"
 
 
 def test_what_does_not_fail_is_not_said_to_fail():

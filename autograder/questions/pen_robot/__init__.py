@@ -1,6 +1,8 @@
-"""The pen robot (its sheet, French and English): table, tip, the surface it reaches, and a curve written on it."""
+"""The pen robot (its sheet, French and English): table, tip, the surface it reaches; then arms with a pen that no lecture shows."""
 
 from __future__ import annotations
+
+from functools import partial
 
 import numpy as np
 import sympy
@@ -9,37 +11,40 @@ from autograder.judge import Follow, Question, following, mistake
 from autograder.judge.misconceptions import columns_exchanged, offset_missing, option, tolerance_too_wide, tool_left_out
 from autograder.judge.steps import change_entry, substitute
 
+from . import own
 from .model import (
-    ABSOLUTE_REPAIRED,
-    COMMON_SHARES,
     HALF,
     L2,
     READINGS,
-    REPAIRED,
     ROWS,
     TIP,
     TWISTED_TIP,
-    asin,
-    atan,
     circles,
-    draw_curve,
-    draw_places,
     draw_surface,
-    follow,
+    freedoms,
     h2,
     height_squared,
-    inverse,
-    name_half,
-    name_place,
     p1,
-    pair_residual,
-    pen_for_circle,
     read_twist_as_length,
     t1,
     t2,
-    t3,
-    trace_residual,
 )
+
+e, p = sympy.symbols("e p")
+
+
+def other_sense(direction: list[int]) -> list[int]:
+    """A direction of two joints with the second of them the other way."""
+    last = max(place for place, entry in enumerate(direction) if entry)
+    return [-entry if place == last else entry for place, entry in enumerate(direction)]
+
+
+def of_other_joints(direction: list[int], places: int, sense: int) -> list[int]:
+    """A direction of two joints moved on by some places, the first of the two with another sense."""
+    moved = [direction[(place - places) % 3] for place in range(3)]
+    first = next(place for place, entry in enumerate(moved) if entry)
+    return [sense * entry if place == first else entry for place, entry in enumerate(moved)]
+
 
 QUESTIONS = (
     Question(
@@ -171,109 +176,6 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "pen_robot.pen",
-        reference=pen_for_circle,
-        mistakes=(
-            mistake(
-                "side_forgotten",
-                0.4,
-                "**The radius is not rho.** The plane of the pen passes beside axis 1, at the distance H = h2 + L2.",
-                wrong={"side": False},
-            ),
-            mistake(
-                "sheet_forgotten",
-                0.5,
-                "**The sheet lies {drop} m below axis 2.** The pen must go ahead *and* down.",
-                wrong={"sheet": False},
-            ),
-        ),
-    ),
-    Question(
-        "pen_robot.inverse",
-        reference=inverse,
-        mistakes=(
-            mistake(
-                "points_behind_missed",
-                0.6,
-                "**Points behind axis 1 get no solution.** A long pen reaches over the axis: rho may be negative.",
-                wrong={"signs": (1,)},
-            ),
-            mistake(
-                "surface_not_checked",
-                0.4,
-                "**Your function answers for points that the pen cannot reach.** Three equations, two unknowns: one equation is left over "
-                "as a condition. Put every solution into the direct model before you return it.",
-                wrong=[{"slack": np.inf}, {"slack": np.inf, "signs": (1,)}],
-            ),
-            tolerance_too_wide(
-                {"slack": 1e-3},
-                {"slack": 5e-3},
-                feedback="**Your function answers for points beside the surface.** Some tenths of a millimetre are no rounding: the "
-                "statement says how much to allow.",
-            ),
-            mistake(
-                "surface_taken_too_narrow",
-                0.7,
-                "**Points of the surface come back without a solution.** Rounding moves a point a hair off it: leave the small tolerance of "
-                "the statement.",
-                wrong=[{"slack": 1e-8}, {"slack": 1e-14}],
-            ),
-            mistake(
-                "sign_of_the_side",
-                0.5,
-                "**theta1 is turned the wrong way.** The tip lies to the left of the arm: does the arm point to the right or to the left of "
-                "the tip?",
-                wrong=[{"side": -1}, {"side": 0}],
-            ),
-            mistake(
-                "half_of_the_circle_lost",
-                0.5,
-                "**phi is right on half of its circle only.** A sine, or a quotient, does not tell the whole angle; you know sine and cosine.",
-                wrong=[{"angle": asin}, {"angle": atan}],
-            ),
-        ),
-        angles=(0, 1),
-        probe=draw_places,
-        case=name_place,
-        residual=pair_residual,
-    ),
-    Question(
-        "pen_robot.follow",
-        reference=follow,
-        mistakes=(
-            mistake(
-                "stops_ignored",
-                0.5,
-                "**The trace is right, but a joint goes beyond its stop.** Only the sum of theta2 and theta3 is fixed: share it.",
-                wrong={"shares": (0.0, 1.0)},
-            ),
-            mistake(
-                "heading_of_the_tip",
-                0.4,
-                "**theta1 is the direction of the tip, which is not the direction of the arm.** The pen's plane passes beside axis 1.",
-                wrong={"heading": "tip", "shares": COMMON_SHARES},
-            ),
-            mistake(
-                "sign_of_the_side",
-                0.5,
-                "**theta1 is turned the wrong way.** The tip lies to the left of the arm: does the arm point to the right or to the left of "
-                "the tip?",
-                wrong={"heading": "mirror", "shares": COMMON_SHARES},
-            ),
-            mistake(
-                "measured_from_the_horizontal",
-                0.4,
-                "**phi is counted from the horizontal.** With theta2 = theta3 = 0 the pen stands upright.",
-                wrong={"zero": "horizontal", "shares": COMMON_SHARES},
-            ),
-        ),
-        angles=(0, 1, 2),
-        tolerance=1e-5,
-        probe=draw_curve,
-        case=name_half,
-        residual=trace_residual,
-    ),
-    Question(
         "pen_robot.readings",
         reference=READINGS,
         mistakes=(
@@ -301,27 +203,226 @@ QUESTIONS = (
         angles=(0, 1, 2),
     ),
     Question(
-        "pen_robot.repaired",
-        reference=REPAIRED,
+        "pen_robot.freedoms",
+        reference=freedoms,
         mistakes=(
             mistake(
-                "link_left_out",
-                0.3,
-                "**This is the robot as printed.** Now L2 is a link between joints 2 and 3, and moves with theta2.",
-                substitute({L2: 0}),
+                "joints_counted",
+                0.0,
+                "**You counted the joints.** A joint counts only if it moves the tip in a way that the others cannot.",
+                lambda found: [3] * 6,
             ),
             mistake(
-                "angle_not_summed",
-                0.4,
-                "**The pen is placed as if theta3 were measured from the vertical.** It goes from link 2 to the pen.",
-                lambda _: ABSOLUTE_REPAIRED,
+                "axes_on_one_line",
+                0.6,
+                "**Two axes on one line do the same to the tip.** One of the six robots has them, and you have not seen it.",
+                wrong={"overlooked": "upright"},
             ),
             mistake(
-                "sine_and_cosine_exchanged",
-                0.5,
-                "**Sine and cosine are exchanged.** With both angles zero the robot stands upright.",
-                substitute({t2: HALF - t2, t3: -t3}),
+                "axes_through_one_point",
+                0.6,
+                "**Three turns about one point keep the tip at its distance.** One of the six robots has its axes like this.",
+                wrong={"overlooked": "ball"},
+            ),
+            mistake(
+                "tip_on_an_axis",
+                0.6,
+                "**A tip that lies on an axis does not feel the turn about it.** In one of the six robots it does.",
+                wrong={"overlooked": "axle"},
+            ),
+            mistake(
+                "slides_of_one_direction",
+                0.6,
+                "**Slides of one direction add up to one.** In one of the six robots alpha is 0 or pi everywhere.",
+                wrong={"overlooked": "lifts"},
             ),
         ),
+        partial=0.0,
+        places=False,
+        depends=("offer",),
+    ),
+    Question(
+        "pen_robot.own_tip",
+        reference=own.tip,
+        mistakes=(
+            mistake(
+                "pen_left_out",
+                0.4,
+                "**The pen is missing.** This is where the pen is held; its tip is p further on.",
+                substitute({p: 0}),
+            ),
+            mistake(
+                "offset_forgotten",
+                0.5,
+                "**The length e is forgotten.** Follow the links in the drawing: it leads from one axis to the next.",
+                substitute({e: 0}),
+            ),
+            mistake(
+                "offset_on_the_other_side",
+                0.6,
+                "**The length e leads to the other side.** Compare the sign with the table of the statement, all joints at zero.",
+                substitute({e: -e}),
+            ),
+            mistake(
+                "sense_of_a_joint",
+                0.6,
+                "**A joint moves in the wrong sense.** Right-hand rule about its arrow; or along its arrow, where it slides. Arrows may "
+                "point down, or back.",
+                *(substitute({q: -q}) for q in own.JOINTS),
+            ),
+            mistake(
+                "first_joint_left_out",
+                0.3,
+                "**Joint 1 is not in it.** Seen from the base it moves everything.",
+                substitute({own.JOINTS[0]: 0}),
+            ),
+        ),
+        depends=("arm",),
+    ),
+    Question(
+        "pen_robot.still",
+        reference=own.still,
+        mistakes=(
+            mistake(
+                "senses_not_seen",
+                0.4,
+                "**The right two joints, but with this direction the tip moves twice as far.** Look at the senses of their arrows.",
+                other_sense,
+            ),
+            mistake(
+                "one_of_them_does_something_else",
+                0.0,
+                "**These two joints do different things to the tip.** In which of its coordinates does each of them occur?",
+                *(partial(of_other_joints, places=places, sense=sense) for places in (1, 2) for sense in (1, -1)),
+            ),
+        ),
+        depends=("arm",),
+    ),
+    Question(
+        "pen_robot.inverse",
+        reference=own.inverse,
+        mistakes=(
+            mistake(
+                "second_sign_missed",
+                0.6,
+                "**Solutions are missing.** A root, and an arccosine, have two signs: some points need the other one, or both.",
+                wrong=[{"signs": (1,)}, {"signs": (-1,)}],
+            ),
+            mistake(
+                "surface_not_checked",
+                0.4,
+                "**Your function answers for points that the pen cannot reach.** Three equations, two unknowns: one equation is left over "
+                "as a condition. Put every solution into the model of your tip before you return it.",
+                wrong={"slack": np.inf},
+            ),
+            tolerance_too_wide(
+                {"slack": 1e-3},
+                {"slack": 5e-3},
+                feedback="**Your function answers for points beside the surface.** Some tenths of a millimetre are no rounding: the "
+                "statement says how much to allow.",
+            ),
+            mistake(
+                "surface_taken_too_narrow",
+                0.7,
+                "**Points of the surface come back without a solution.** Rounding moves a point a hair off it: leave the small tolerance of "
+                "the statement.",
+                wrong=[{"slack": 1e-8}, {"slack": 1e-14}],
+            ),
+            mistake(
+                "rest_of_the_arm_counted_wrongly",
+                0.5,
+                "**q1 has what the rest of the arm does with the wrong sign.** Seen from joint 1 at zero, where is the tip? Joint 1 makes "
+                "up for what is missing.",
+                wrong={"rest": -1},
+            ),
+            mistake(
+                "rest_of_the_arm_forgotten",
+                0.4,
+                "**q1 is taken as if joint 1 did everything alone.** The rest of the arm leads to some place, too: joint 1 only makes up for "
+                "the difference.",
+                wrong={"rest": 0},
+            ),
+        ),
+        angles=(0, 1, 2),
+        probe=own.draw_points,
+        residual=own.residual,
+    ),
+    Question(
+        "pen_robot.follow",
+        reference=own.follow,
+        mistakes=(
+            mistake(
+                "stops_ignored",
+                0.5,
+                "**The trace is right, but a joint goes beyond its stop.** Two joints do the same: let them share the work.",
+                wrong={"shares": own.ONE_ALONE},
+            ),
+            mistake(
+                "shared_against_each_other",
+                0.4,
+                "**The two joints work against each other.** Their arrows tell in which sense each of them must go.",
+                wrong={"sense": -1},
+            ),
+            mistake(
+                "rest_of_the_arm_counted_wrongly",
+                0.5,
+                "**q1 has what the rest of the arm does with the wrong sign.** Put one result into your model of the tip.",
+                wrong={"rest": -1},
+            ),
+            mistake(
+                "rest_of_the_arm_forgotten",
+                0.4,
+                "**q1 is taken as if joint 1 did everything alone.** Put one result into your model of the tip.",
+                wrong={"rest": 0},
+            ),
+        ),
+        angles=(0, 1, 2),
+        tolerance=1e-5,
+        probe=own.draw_curve,
+        residual=own.trace_residual,
+    ),
+    Question(
+        "pen_robot.mended",
+        reference=own.mended,
+        mistakes=(
+            mistake(
+                "nothing_mended",
+                0.0,
+                "**This is still the colleague's function.** Ask it for points that you have made with the model, in every quadrant, above "
+                "and below axis 2.",
+                wrong=[
+                    {"signs": (1,), "tilt": own.asin, "first": own.atan, "near": near}
+                    for near in ("failure", "limit", "nothing")
+                ],
+            ),
+            mistake(
+                "over_the_back_missing",
+                0.5,
+                "**Every point has a second solution.** Half a turn of joint 1, and the arm reaches over its back.",
+                wrong={"signs": (1,)},
+            ),
+            mistake(
+                "half_of_the_tilt_lost",
+                0.5,
+                "**One angle is right on half of its circle only.** Compare your answers for points above and below axis 2.",
+                wrong={"tilt": own.asin},
+            ),
+            mistake(
+                "half_of_the_heading_lost",
+                0.5,
+                "**The direction of a point behind the base is lost.** Compare your answers for points on both sides of the y axis.",
+                wrong={"first": own.atan},
+            ),
+            mistake(
+                "next_to_the_axis",
+                0.7,
+                "**Next to axis 1 there is nothing to find.** The plane of the pen passes it at a distance.",
+                wrong=[{"near": "failure"}, {"near": "limit"}],
+            ),
+        ),
+        angles=(0, 1),
+        probe=own.draw_swing_points,
+        case=own.name_swing_point,
+        residual=own.mended_residual,
     ),
 )

@@ -8,7 +8,7 @@ One style for the whole course: x red and solid, y green and dashed, z blue and 
 that a grey print and a colour-blind reader lose nothing. Links are grey; darker means a later posture.
 """
 
-from .arms import draw_arm, end_frame
+from .arms import arm_curve, draw_arm, end_frame, mark_curve
 from .chains import chain_frames, draw_chain
 from .elbow_workspace import draw_elbow_workspace, draw_section
 from .frames import draw_dh_parameters, draw_frames_3d, mark_frame, mark_path
@@ -17,7 +17,7 @@ from .gripper import draw_gripper
 from .orientation import draw_atan2, draw_brick_turns, draw_flip, draw_top, turn_in_steps
 from .parallel import draw_3rpr, draw_3rrr, draw_assembly_modes, draw_coupler_curve, draw_leg_lines, platform_points
 from .parameter_steps import draw_parameter_steps
-from .pen import PEN_SIZES, draw_pen_robot, draw_pen_sheet, draw_pen_views, pen_curve, pen_tip
+from .pen import PEN_SIZES, draw_pen_robot, draw_pen_sheet, draw_pen_views, pen_tip
 from .planar import (
     draw_planar_arm,
     draw_postures,
@@ -67,6 +67,7 @@ from .workspace import (
 
 __all__ = [
     "PEN_SIZES",
+    "arm_curve",
     "chain_frames",
     "count_postures",
     "draw_3rpr",
@@ -134,6 +135,7 @@ __all__ = [
     "draw_workspace_2r",
     "end_frame",
     "grid_points",
+    "mark_curve",
     "mark_edges",
     "mark_frame",
     "mark_frame_2d",
@@ -141,7 +143,6 @@ __all__ = [
     "mark_path",
     "mark_shadow",
     "mark_target",
-    "pen_curve",
     "pen_tip",
     "platform_points",
     "scara_frames",

@@ -7,12 +7,14 @@ from itertools import pairwise
 import numpy as np
 
 from ..arms import EXTENDED, Arm, said_letter, said_sum
+from ..curves import arm_path
 from ..geometry import rigid_transform, rotation
 from .bodies import HAND, JOINT, LINK, Bodies
 from .frames import ask_for_frames, merge_axes
+from .inputs import as_numbers
 from .labels import Labels
 from .strokes_3d import draw_arrow_3d
-from .style import AXIS_COLOURS, AXIS_DASHES, CENTRE_LINE, INK, SOFT, styled
+from .style import AXIS_COLOURS, AXIS_DASHES, CENTRE_LINE, INK, SOFT, WANTED, styled
 from .view import fit_3d, new_axes_3d, view_axes
 
 
@@ -70,6 +72,26 @@ def end_frame(arm: Arm, q) -> np.ndarray:
     """The frame of the end effector, (4, 4), for joint values in radians and metres."""
     values = dict(zip((joint.name for joint in arm.joints), map(float, q), strict=True))
     return _moves(arm, values)[-1] @ _end_frame(arm, values)
+
+
+def arm_curve(shape: str, arm: Arm, count: int = 121) -> np.ndarray:
+    """A curve on the surface that the end effector of an arm stays on: points (count, 3) in metres.
+
+    `shape` is one of `dhkit.curves.ARM_CURVES`; of the three joints two do the same.
+    """
+    return np.array([end_frame(arm, q)[:3, 3] for q in arm_path(arm, shape, count)])
+
+
+def mark_curve(ax, curve, trace=None):
+    """Mark a wanted curve, shape (k, 3) in metres, broad and light; thin and dark what was drawn of it, the trace."""
+    lines = [(as_numbers(curve, "curve", (None, 3)), {"color": WANTED, "lw": 4.5, "alpha": 0.7})]
+    if trace is not None:
+        lines.append((as_numbers(trace, "trace", (None, 3)), {"color": INK, "lw": 1.3}))
+    for points, pen in lines:
+        ax.plot(*points.T, zorder=9, **pen)
+    corners = np.array([ax.get_xlim(), ax.get_ylim(), ax.get_zlim()]).T
+    fit_3d(ax, np.vstack([corners, *(points for points, _ in lines)]), True, pad=0.42)
+    return ax
 
 
 def joint_points(arm: Arm, q) -> np.ndarray:

@@ -7,7 +7,6 @@ import numpy as np
 from matplotlib.patches import Circle, Wedge
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from ..curves import pen_path
 from ..geometry import rotation, unit_vector, wrap
 from .bodies import HAND, JOINT, LINK, Bodies
 from .inputs import as_lengths, as_numbers
@@ -25,7 +24,7 @@ from .strokes import (
     write,
 )
 from .strokes_3d import arc_points, draw_angle_3d, draw_prism
-from .style import AXIS_COLOURS, CENTRE_LINE, DASHED, HALO, INK, LIMIT_DASHES, POSTURE_SHADES, SOFT, styled
+from .style import AXIS_COLOURS, CENTRE_LINE, DASHED, HALO, INK, LIMIT_DASHES, POSTURE_SHADES, SOFT, WANTED, styled
 from .view import fit_3d, new_axes_3d
 
 # The sheet gives no numbers; these make the surface easy to see. Metres.
@@ -56,22 +55,6 @@ def pen_tip(q, sizes=PEN_SIZES, *, repaired=False) -> np.ndarray:
     up = h1 + p1 * np.cos(t2 + t3) + (L2 * np.cos(t2) if repaired else 0)
     points = np.stack(np.broadcast_arrays(out, side, up), axis=-1)
     return (rotation("z", t1) @ points[..., None])[..., 0]
-
-
-def pen_curve(shape: str, sizes=PEN_SIZES, count: int = 121) -> np.ndarray:
-    """A curve on the surface of the pen robot: points (count, 3) in metres.
-
-    Parameters
-    ----------
-    shape : str
-        One of `dhkit.curves.PEN_CURVES`.
-    sizes : dict
-        h1, L1, h2, L2, p1 in metres.
-    count : int
-        Number of points.
-    """
-    turn, phi = pen_path(shape, count).T
-    return pen_tip(np.stack([turn, phi, 0 * phi], axis=-1), sizes)
 
 
 def _joints_in_space(q, sizes, repaired):
@@ -161,7 +144,7 @@ def draw_pen_robot(
     if sheet is not None:
         extent.append(_draw_sheet(ax, float(sheet), sizes, repaired))
     for points, pen, name in (
-        (curve, {"color": "#E69F00", "lw": 4.5, "alpha": 0.7}, "curve"),
+        (curve, {"color": WANTED, "lw": 4.5, "alpha": 0.7}, "curve"),
         (trace, {"color": INK, "lw": 1.3}, "trace"),
     ):
         if points is not None:

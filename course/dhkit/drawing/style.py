@@ -13,6 +13,8 @@ from ..watched import is_watched
 INK = "#222222"
 SOFT = "#8c8c8c"
 FAINT = "#d4d4d4"
+WANTED = "#E69F00"
+"""A curve that is to be drawn."""
 # Okabe-Ito colours: told apart with any common colour-blindness, and of different lightness in grey print.
 AXIS_COLOURS = {"x": "#D55E00", "y": "#009E73", "z": "#0072B2"}
 AXIS_DASHES = {"x": "-", "y": (0, (5, 1.5)), "z": (0, (6, 1.5, 1.2, 1.5))}

@@ -45,7 +45,7 @@ from .parameters import (
     show_rewritten,
     show_x_axis,
 )
-from .pen import show_circles, show_height, show_pen_inverse, show_tip, show_trace
+from .pen import show_circles, show_height, show_reached, show_tip, show_trace
 from .planar import show_inverse, show_on_planar_arm, show_postures, show_theta1
 from .planar_arms import show_belt, show_on_walked_arm, show_rods, show_walked_postures
 from .scara import show_on_scara, show_scara_forward
@@ -118,7 +118,6 @@ __all__ = [
     "show_pallet",
     "show_parallel_axes",
     "show_parameters",
-    "show_pen_inverse",
     "show_pen_tip",
     "show_planar",
     "show_platform_joint",
@@ -128,6 +127,7 @@ __all__ = [
     "show_postures",
     "show_ranks",
     "show_reach_range",
+    "show_reached",
     "show_reading",
     "show_repaired_row",
     "show_rewritten",

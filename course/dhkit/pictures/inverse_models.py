@@ -163,8 +163,7 @@ def show_free_direction(direction, arm: Arm, q):
     ----------
     direction : as many entries as joints
     arm : Arm
-        Of joints that turn.
-    q : joint values to start from, in radians
+    q : joint values to start from, in radians and metres
 
     Returns
     -------
@@ -174,7 +173,8 @@ def show_free_direction(direction, arm: Arm, q):
     if not step.any():
         raise ValueError("direction: expected numbers that are not all zero")
     step = step / np.linalg.norm(step)
-    moved = [np.array(q) + angle * step for angle in (-0.6, -0.2, 0.2, 0.6)]
+    slides = any(joint.slides for joint, part in zip(arm.joints, step) if part)
+    moved = [np.array(q) + share * (0.15 if slides else 0.6) * step for share in (-1, -1 / 3, 1 / 3, 1)]
     hands = np.array([end_frame(arm, each) for each in moved])
     far = np.linalg.norm(hands[:, :3, 3] - hands[0, :3, 3], axis=1).max()
     turn = np.degrees(rotation_angle_between(hands[:, :3, :3], hands[0, :3, :3])).max()

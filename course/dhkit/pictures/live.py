@@ -57,13 +57,3 @@ def modes(base: Any, platform: Any, poses: Any) -> Any:
     from ..scene import ParallelScene
 
     return ParallelScene(base, platform, poses[0])
-
-
-def pen(sizes: dict[str, float], path: Any) -> Any:
-    """The scene of the pen robot that writes along a path of joint values."""
-    from sympy import pi, symbols
-
-    t1, t2, t3 = symbols("t1 t2 t3")
-    h1, L1, h2, L2, p1 = (float(sizes[name]) for name in ("h1", "L1", "h2", "L2", "p1"))
-    table = [[0, 0, 0, h1, t1], [0, L1, -pi / 2, h2, t2 - pi / 2], [0, 0, 0, L2, t3], [0, p1, 0, 0, 0]]
-    return robot(table, {}, frames=(0, 4)).play(path, seconds=8)

@@ -1,4 +1,4 @@
-"""A student's result on the pen robot: the tip, its surface, circles on a sheet, an inverse model, a written curve."""
+"""A student's result on arms with a pen: the tip, its surface, circles on a sheet, an inverse model, a written curve."""
 
 from __future__ import annotations
 
@@ -6,44 +6,40 @@ import matplotlib.pyplot as plt
 import numpy as np
 import sympy
 
+from ..arms import Arm, Axis, said_letter
+from ..curves import STOPS
+from ..drawing.arms import draw_arm, end_frame, mark_curve
 from ..drawing.pen import PEN_SIZES, draw_pen_robot, pen_tip
 from ..drawing.strokes import show_plane
 from ..drawing.strokes_3d import draw_target_3d, write_3d
 from ..drawing.style import AXIS_COLOURS, INK, SOFT
-from ..geometry import rotation, unit_vector, wrap
-from . import live
+from ..drawing.view import fit_3d
+from ..geometry import unit_vector, wrap
 from .own_result import called, entries, numbers, numbers_in_rows, own_result
 
 
 @own_result
-def show_tip(tip, values: dict[str, float], *, repaired=False):
-    """Show the pen robot in the posture given by `values`, and a point [x, y, z] or [rho, z] of an answer.
+def show_tip(tip, values: dict[str, float]):
+    """Show the pen robot in the posture given by `values`, and a point [x, y, z] of an answer.
 
     The cross belongs on the end of the pen.
 
     Parameters
     ----------
-    tip : 3 entries [x, y, z], or 2 entries [rho, z] in the plane of the pen, SymPy or numbers
+    tip : 3 entries [x, y, z], SymPy or numbers
     values : dict
         Numbers for t1, t2, t3 (radians), h1, L1, h2, L2, p1 (metres).
-    repaired : bool
-        L2 is a link between joints 2 and 3.
 
     Returns
     -------
     matplotlib Axes (3D)
     """
-    if len(entries(tip)) == 2:
-        rho, z = numbers(tip, "repaired", (2,), values)
-        side = values["h2"] + (0 if repaired else values["L2"])
-        at = rotation("z", values["t1"]) @ [rho, side, z]
-    else:
-        at = numbers(tip, "tip", (3,), values)
+    at = numbers(tip, "tip", (3,), values)
     sizes = {name: values[name] for name in PEN_SIZES}
     if np.linalg.norm(at) > 10 * sum(sizes.values()):
         raise ValueError(f"your tip is {np.linalg.norm(at):.3g} m away, far outside the picture")
     q = [values[name] for name in ("t1", "t2", "t3")]
-    ax = draw_pen_robot(q, sizes, repaired=repaired, names=False, curve=[at, at])
+    ax = draw_pen_robot(q, sizes, names=False, curve=[at, at])
     draw_target_3d(ax, at, zorder=8, size=15)
     write_3d(ax, np.array(at) + (0, 0, -0.05 * sum(sizes.values())), "your result", fontsize=10)
     return ax
@@ -116,75 +112,81 @@ def show_circles(radii, sizes: dict[str, float], height: float):
 
 
 @own_result
-def show_pen_inverse(inverse, sizes: dict[str, float]):
-    """Show points of the surface from above, and where the pen goes with what an inverse model returns for them.
+def show_reached(inverse, arm: Arm):
+    """Show points that the end effector of an arm reaches, and where it goes with what an inverse model returns for them.
 
     Parameters
     ----------
-    inverse : function (x, y, z, h1, L1, H, p1) -> list of (theta1, phi)
-    sizes : dict
-        h1, L1, h2, L2, p1 in metres.
+    inverse : function (x, y, z) -> list of joint values
+    arm : Arm
 
     Returns
     -------
-    matplotlib Axes
+    matplotlib Axes (3D)
     """
-    grid = [(turn, phi, 0.0) for turn in np.arange(-3, 3.2, 0.75) for phi in (0.5, 1.5, 2.6, -0.5, -1.4, -2.6)]
-    wanted = pen_tip(grid, sizes)
-    others = (sizes["h1"], sizes["L1"], sizes["h2"] + sizes["L2"], sizes["p1"])
+    wanted = np.array([end_frame(arm, q)[:3, 3] for q in _random_postures(arm)])
     reached, missed, nothing = [], [], 0
     for point in wanted:
-        answer = called(inverse, *map(float, point), *others)
-        rows = numbers_in_rows(answer, "inverse", 2)
+        rows = numbers_in_rows(called(inverse, *map(float, point)), "inverse", len(arm.joints))
         nothing += not len(rows)
-        for turn, phi in rows:
-            tip = pen_tip([turn, phi, 0.0], sizes)
+        for q in rows:
+            tip = end_frame(arm, q)[:3, 3]
             (reached if np.linalg.norm(tip - point) < 1e-5 else missed).append((point, tip))
-    ax = plt.subplots(figsize=(5.0, 5.0))[1]
-    ax.plot(wanted[:, 0], wanted[:, 1], "o", ms=8, mfc="none", mec=SOFT, label=f"{len(wanted)} points of the surface")
+    ax = draw_arm(arm, end_effector=False)
+    corners = np.array([ax.get_xlim(), ax.get_ylim(), ax.get_zlim()]).T
+    ax.plot(*wanted.T, "o", ms=7, mfc="none", mec=SOFT, zorder=8, label=f"{len(wanted)} points")
+    red = AXIS_COLOURS["x"]
     if reached:
-        ax.plot(*np.array([tip[:2] for _, tip in reached]).T, ".", ms=6, color=INK, label=f"reached ({len(reached)})")
-    for point, tip in missed:
-        ax.plot(*zip(point[:2], tip[:2]), color=AXIS_COLOURS["x"], lw=0.7)
+        tips = np.array([tip for _, tip in reached])
+        ax.plot(*tips.T, ".", ms=5, color=INK, zorder=9, label=f"reached ({len(reached)})")
     if missed:
-        ends = np.array([tip[:2] for _, tip in missed]).T
-        ax.plot(*ends, "x", ms=6, color=AXIS_COLOURS["x"], label=f"a solution misses ({len(missed)})")
+        for ends in missed:
+            ax.plot(*zip(*ends), color=red, lw=0.7, zorder=9)
+        tips = np.array([tip for _, tip in missed])
+        ax.plot(*tips.T, "x", ms=6, color=red, zorder=9, label=f"a solution misses ({len(missed)})")
     if nothing:
-        ax.plot([], [], " ", label=f"no solution ({nothing})")
-    show_plane(ax)
-    ax.margins(0.08)
-    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2, columnspacing=1.2, handletextpad=0.3)
+        ax.plot([], [], [], " ", label=f"no solution ({nothing})")
+    fit_3d(ax, np.vstack([corners, wanted, *(tip[None] for _, tip in missed)]), True, pad=0.5)
+    ax.figure.legend(*ax.get_legend_handles_labels(), loc="lower center", bbox_to_anchor=(0.5, -0.06), ncols=3)
     return ax
 
 
+def _random_postures(arm: Arm, count: int = 40) -> np.ndarray:
+    """Joint values (count, n): turns anywhere, slides of up to 0.3 m."""
+    least = [0.02 if joint.slides else -np.pi for joint in arm.joints]
+    most = [0.3 if joint.slides else np.pi for joint in arm.joints]
+    return np.random.default_rng(5).uniform(least, most, (count, len(arm.joints)))
+
+
 @own_result
-def show_trace(follow, curve, sizes: dict[str, float], stop=np.pi / 2):
-    """Show the pen robot writing a curve with the joint angles that a function returns, and measure its trace.
+def show_trace(follow, arm: Arm, curve):
+    """Show an arm that writes a curve with the joint values that a function returns, and measure its trace.
 
     Parameters
     ----------
-    follow : function (x, y, z) -> (theta1, theta2, theta3)
+    follow : function (x, y, z) -> (q1, q2, q3)
+    arm : Arm
+        Its joints have the stops of `dhkit.curves.STOPS`.
     curve : array-like, shape (k, 3), in metres
-    sizes : dict
-        h1, L1, h2, L2, p1 in metres.
-    stop : float, in radians
-        Largest theta2 and theta3 to either side.
 
     Returns
     -------
     matplotlib Axes (3D)
     """
     curve = np.asarray(curve, float)
-    rows = [numbers(entries(called(follow, *map(float, point))), "follow", (3,), {}) for point in curve]
-    trace = pen_tip(rows, sizes)
+    rows = np.array([numbers(entries(called(follow, *map(float, point))), "follow", (3,), {}) for point in curve])
+    trace = np.array([end_frame(arm, q)[:3, 3] for q in rows])
     away = 1000 * np.linalg.norm(trace - curve, axis=1).max()
-    largest = np.degrees(np.abs(wrap(np.array(rows)[:, 1:])).max(axis=0))
-    live.beside(lambda: live.pen(sizes, rows))
-    ax = draw_pen_robot(rows[len(rows) // 3], sizes, names=False, curve=curve, trace=trace)
-    said = f"trace at most {away:.2g} mm from the curve" if away < 1e4 else "trace far from the curve"
-    beyond = " and ".join(rf"$\theta_{k + 2}$" for k in (0, 1) if largest[k] > np.degrees(stop) + 1e-6)
-    joints = rf"largest $|\theta_2|$, $|\theta_3|$: {largest[0]:.0f}°, {largest[1]:.0f}°"
-    ax.figure.suptitle(
-        f"{said}\n{joints}" + (f": {beyond} beyond the stop" if beyond else ""), fontsize=10, y=1.02, va="bottom"
-    )
+    ax = mark_curve(draw_arm(arm, rows[len(rows) // 3], end_effector=False), curve, trace)
+    said = [f"trace at most {away:.2g} mm from the curve" if away < 1e4 else "trace far from the curve"]
+    said += [_largest(joint, values) for joint, values in zip(arm.joints, rows.T, strict=True)]
+    ax.figure.suptitle("\n".join(said), fontsize=10, y=1.02, va="bottom")
     return ax
+
+
+def _largest(joint: Axis, values) -> str:
+    """How far a joint has moved, and whether it went beyond its stop, in words."""
+    stop = STOPS[joint.slides]
+    most = np.abs(values if joint.slides else wrap(values)).max()
+    size = f"{most:.3f} m" if joint.slides else f"{np.degrees(most):.0f}°"
+    return f"largest ${said_letter(joint.name)}$: {size}" + (", beyond the stop" if most > stop + 1e-6 else "")

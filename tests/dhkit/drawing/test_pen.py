@@ -9,12 +9,15 @@ import pytest
 import sympy
 from matplotlib.patches import Circle
 
-from dhkit.curves import PEN_CURVES, pen_path
-from dhkit.drawing import chain_frames, pen
+from dhkit.arms import arm_of
+from dhkit.curves import ARM_CURVES, STOPS, arm_path, same_joints
+from dhkit.drawing import arm_curve, chain_frames, end_frame, pen
 from dhkit.pictures import pen as pictures
+from dhkit.public import variant_ranges
 
 Q = np.radians([35, 20, 45])
 HALF = np.pi / 2
+PEN_ARMS = variant_ranges("pen_robot")["arm"]
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -79,38 +82,45 @@ def test_bad_input_is_refused_in_words(draw, words):
 # ---------------------------------------------------------------- curves, and pictures of a student's own result
 
 
-@pytest.mark.parametrize("shape", PEN_CURVES)
-def test_a_curve_can_be_written_by_sharing_the_angle_only(shape):
-    """phi is beyond the stop of one joint somewhere, but never beyond those of both."""
-    turn, phi = np.degrees(pen_path(shape)).T
-    assert phi.min() > 70 and 90 < phi.max() < 135
-    assert np.allclose(pen.pen_curve(shape), pen.pen_tip(np.radians([turn, phi / 2, phi / 2]).T))
+@pytest.mark.parametrize("shape", ARM_CURVES)
+@pytest.mark.parametrize("name", PEN_ARMS)
+def test_a_curve_can_be_written_by_sharing_the_work_only(name, shape):
+    """The first of the equal joints is beyond its stop somewhere, but never beyond those of both; the others never."""
+    arm = arm_of({"arm": name})
+    first, second = same_joints(arm)
+    path, stops = arm_path(arm, shape), np.array([STOPS[joint.slides] for joint in arm.joints])
+    shared, same = path.copy(), np.dot(arm.joints[first].direction, arm.joints[second].direction)
+    shared[:, first], shared[:, second] = path[:, first] / 2, same * path[:, first] / 2
+    assert path[:, first].max() > stops[first] and (np.abs(shared) < stops).all()
+    tips = [end_frame(arm, q)[:3, 3] for q in shared]
+    np.testing.assert_allclose(arm_curve(shape, arm), tips, atol=1e-12)
 
 
-def test_there_are_no_other_curves():
+def test_there_are_no_other_curves_and_arms():
     with pytest.raises(ValueError, match="one of eight, wave, spiral"):
-        pen_path("star")
+        arm_path(ARM, "star")
+    with pytest.raises(ValueError, match="two joints that do the same, found 0 pairs"):
+        arm_path(arm_of({"arm": "pen_swing"}), "eight")
 
 
 VALUES = pen.PEN_SIZES | {"t1": -0.4, "t2": 0.5, "t3": 1.2}
-CURVE = pen.pen_curve("eight", count=13)
+ARM = arm_of({"arm": "pen_hoist"})
+CURVE = arm_curve("eight", ARM, 13)
 x, y, p1 = sympy.symbols("x y p1")
 
 
-def right_follow(px, py, pz):
-    side = pen.PEN_SIZES["h2"] + pen.PEN_SIZES["L2"]
-    rho = np.sqrt(px**2 + py**2 - side**2)
-    phi = np.arctan2(rho - pen.PEN_SIZES["L1"], pz - pen.PEN_SIZES["h1"])
-    return np.arctan2(py, px) - np.arctan2(side, rho), phi / 2, phi / 2
+def right(px, py, pz, share=0.5):
+    """The hoist with its lengths of the pool; the lift takes a share of the height."""
+    up = pz - ARM.lengths["b"] + ARM.lengths["p"]
+    return share * up, np.arctan2(py, px - ARM.lengths["e"]), -(1 - share) * up
 
 
 PICTURES = {
     "tip": (pictures.show_tip, (VALUES,), [0.1, 0.2, sympy.Symbol("h1")]),
-    "repaired": (lambda tip, values: pictures.show_tip(tip, values, repaired=True), (VALUES,), [0.4, 0.2]),
     "height": (pictures.show_height, (pen.PEN_SIZES,), p1**2 - sympy.sqrt(x**2 + y**2 - 0.05)),
     "circles": (pictures.show_circles, (pen.PEN_SIZES, 0.2), {"small": 0.2, "large": 0.5}),
-    "inverse": (pictures.show_pen_inverse, (pen.PEN_SIZES,), lambda *point: [(0.1, 0.2)]),
-    "follow": (pictures.show_trace, (CURVE, pen.PEN_SIZES), right_follow),
+    "inverse": (pictures.show_reached, (ARM,), lambda *point: [(0.1, 0.2, 0.3)]),
+    "follow": (pictures.show_trace, (ARM, CURVE), right),
 }
 
 
@@ -130,14 +140,15 @@ def test_an_answer_is_drawn_and_nothing_is_said_to_be_nothing(name):
 
 
 def test_the_trace_is_measured_and_the_stops_are_looked_at():
-    assert "mm from the curve" in words(pictures.show_trace(right_follow, CURVE, pen.PEN_SIZES))
-    greedy = lambda *point: (right_follow(*point)[0], 0.0, 2 * right_follow(*point)[2])  # noqa: E731
-    assert r"$\theta_3$ beyond the stop" in words(pictures.show_trace(greedy, CURVE, pen.PEN_SIZES))
-    turned = lambda *point: (right_follow(*point)[0] + 0.01, *right_follow(*point)[1:])  # noqa: E731
-    distance = 10 * np.hypot(*CURVE[:, :2].T).max()
-    assert f"at most {distance:.2g} mm" in words(pictures.show_trace(turned, CURVE, pen.PEN_SIZES))
+    said = words(pictures.show_trace(right, ARM, CURVE))
+    assert "mm from the curve" in said and "beyond" not in said
+    assert "m, beyond the stop" in words(pictures.show_trace(lambda *point: right(*point, share=1.0), ARM, CURVE))
+    above = lambda *point: np.array(right(*point)) + [0.01, 0, 0]  # noqa: E731
+    assert "at most 10 mm" in words(pictures.show_trace(above, ARM, CURVE))
 
 
 def test_a_solution_that_misses_is_counted():
-    assert "a solution misses (54)" in words(pictures.show_pen_inverse(lambda *point: [(0.1, 0.2)], pen.PEN_SIZES))
-    assert "no solution (54)" in words(pictures.show_pen_inverse(lambda *point: [], pen.PEN_SIZES))
+    assert "a solution misses (40)" in words(pictures.show_reached(lambda *point: [(0.1, 0.2, 0.3)], ARM))
+    assert "no solution (40)" in words(pictures.show_reached(lambda *point: [], ARM))
+    said = words(pictures.show_reached(lambda *point: [right(*point, share=1.0)], ARM))
+    assert "reached (40)" in said and "misses" not in said

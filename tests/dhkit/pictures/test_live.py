@@ -9,14 +9,13 @@ import numpy as np
 import pytest
 import sympy
 
-from dhkit.pictures import inverse_models, live, parallel_robots, pen, planar, tables
+from dhkit.pictures import inverse_models, live, parallel_robots, planar, tables
 from dhkit.scene import ParallelScene, Scene
 
 t1, t2, a2 = sympy.symbols("t1 t2 a2")
 PLANAR = [[0, 0, 0, 0, t1], [0, a2, 0, 0, t2], [0, 0.4, 0, 0, 0]]
 VALUES = {"t1": 0.3, "t2": 0.9, "a2": 0.5}
 BASE, PLATFORM = [[0, 0], [1, 0], [0.3, 0.6]], [[-0.2, -0.2], [0.2, -0.2], [0.1, 0.3]]
-SIZES = {"h1": 0.3, "L1": 0.3, "h2": 0.12, "L2": 0.1, "p1": 0.22}
 
 
 def arm(t1, t2, l1=0.5, l2=0.4):
@@ -49,7 +48,6 @@ SHOWN = {
     "planar": lambda: planar.show_postures([[0.3, 0.9]], (0.5, 0.4), HAND[:2, 3]),
     "everywhere": lambda: planar.show_inverse(in_the_plane, (0.5, 0.4)),
     "modes": lambda: parallel_robots.show_modes([(0.55, 0.6, 0.35)], BASE, PLATFORM, (0.55, 0.52, 0.4)),
-    "pen": lambda: pen.show_trace(lambda x, y, z: (0.1 * x, 0.2, 0.3), [[0, 0, 0], [1, 0, 0]], SIZES),
 }
 
 
