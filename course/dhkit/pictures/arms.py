@@ -134,7 +134,7 @@ def show_ranks(ranks, configurations, table):
     matplotlib Axes (3D)
     """
     found = numbers(entries(ranks), "ranks", (len(configurations),), {})
-    names = [f"{letter}: {value:g} freedom{'s' * (value != 1)}" for letter, value in zip("ABCDEFGH", found)]
+    names = [f"{letter}: {value:g} freedom{'' if value == 1 else 's'}" for letter, value in zip("ABCDEFGH", found)]
     return draw_posture_gallery([table(*q) for q in configurations], names)
 
 
