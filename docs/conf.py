@@ -68,7 +68,7 @@ nb_execution_cache_path = str(ROOT / "build/executed")
 nb_execution_timeout = 300
 nb_execution_raise_on_error = True
 nb_execution_show_tb = True
-nb_ipywidgets_js = {}  # sliders are stills here: their program would come from another server
+nb_ipywidgets_js = {}  # their program would come from another server: see `dhkit.flipbook`
 nb_merge_streams = True
 nb_render_markdown_format = "myst"
 

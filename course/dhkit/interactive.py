@@ -13,14 +13,16 @@ from matplotlib.transforms import Bbox
 
 from .drawing.style import SHARP, shown_size
 from .drawing.view import Frame, held
-from .watched import is_watched
+from .flipbook import flipbook
+from .watched import is_for_a_site, is_watched
 
 
 def explore(draw, **sliders: tuple[float, float, float]) -> None:
     """Show ``draw(**values)`` with one slider per value.
 
     The figure for the start values goes along as a plain picture. It alone is shown where nobody sits before the notebook
-    (nbconvert, the grader), whose page has no kernel to ask, and where ipywidgets is not installed.
+    (nbconvert, the grader), whose page has no kernel to ask, and where ipywidgets is not installed. For a site, some pictures
+    more come along: see `dhkit.flipbook`.
 
     Parameters
     ----------
@@ -32,7 +34,12 @@ def explore(draw, **sliders: tuple[float, float, float]) -> None:
     start = {name: value for name, (_, _, value) in sliders.items()}
     camera = _Camera(draw)
     static = camera.picture(start)
+    words = f"sliders: {', '.join(sliders)}"
     if not is_watched() or find_spec("ipywidgets") is None:
+        if is_for_a_site():
+            pages = {"text/plain": words, "text/html": flipbook(camera.picture, sliders)}
+            display(pages | {"image/png": base64.b64encode(static).decode()}, raw=True)
+            return
         display(Image(static, **shown_size(static)))
         return
     import ipywidgets
@@ -58,7 +65,7 @@ def explore(draw, **sliders: tuple[float, float, float]) -> None:
     # Written out, as ipywidgets 7, which Google Colab has, would not let the picture come along.
     view = {"version_major": 2, "version_minor": 0, "model_id": box.model_id}
     bundle = {
-        "text/plain": f"sliders: {', '.join(sliders)}",
+        "text/plain": words,
         "application/vnd.jupyter.widget-view+json": view,
         "image/png": base64.b64encode(static).decode(),
     }

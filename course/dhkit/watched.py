@@ -1,7 +1,8 @@
-"""Whether anybody sits before the notebook."""
+"""Who reads the notebook: somebody before it, or readers of a site."""
 
 from __future__ import annotations
 
+import os
 import sys
 
 
@@ -16,3 +17,8 @@ def is_watched() -> bool:
         return False
     request = kernel.get_parent("shell") if hasattr(kernel, "get_parent") else {}
     return bool(request.get("content", {}).get("allow_stdin", True))
+
+
+def is_for_a_site() -> bool:
+    """Whether what moves should come along as data for pages without a kernel: the builder of a site says so."""
+    return os.environ.get("DHKIT_SCENES") == "embedded"

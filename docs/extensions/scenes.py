@@ -1,4 +1,4 @@
-"""Live scenes in the pages: the program of `dhkit.scene` comes along where a page holds one, once."""
+"""What moves in the pages, live scenes and sliders: their programs come along where a page holds one, once."""
 
 from pathlib import Path
 
@@ -13,6 +13,8 @@ def add_program(app: Sphinx, page: str, template: str, context: dict, doctree) -
     if 'class="dhkit-scene"' in context.get("body", ""):
         app.add_js_file(PROGRAM, loading_method="defer")
         app.add_js_file("scenes.js", loading_method="defer")
+    if 'class="dhkit-flipbook"' in context.get("body", ""):
+        app.add_js_file("flipbook.js", loading_method="defer")
 
 
 def write_program(app: Sphinx, fault: Exception | None) -> None:

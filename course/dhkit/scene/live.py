@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..drawing.style import SHARP, shown_size
-from ..watched import is_watched
+from ..watched import is_for_a_site, is_watched
 from .page import embed, write_page
 
 
@@ -67,7 +67,7 @@ class Live:
             # Colab draws the widget that ends a cell only if these metadata name the program for widgets of others.
             view, said = widget._repr_mimebundle_()
             bundle, metadata = view | bundle, said | metadata
-        elif os.environ.get("DHKIT_SCENES") == "embedded":
+        elif is_for_a_site():
             bundle["text/html"] = embed(self.state(), still, words)
         return bundle, metadata
 
