@@ -56,6 +56,7 @@ lab: setup
 site: setup build/imported
 	@$(BIN)/sphinx-build --quiet --fail-on-warning --jobs auto -c docs -d build/doctrees . build/site 2> build/site.log || { cat build/site.log; exit 1; }
 	$(BIN)/python docs/check_links.py build/site
+	$(BIN)/python docs/check_pages.py build/site
 	@echo "the site is in build/site/index.html"
 
 build/imported: $(shell find course/dhkit autograder -name '*.py' -o -name '*.toml' -o -name 'scene.js')

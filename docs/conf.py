@@ -88,6 +88,7 @@ html_css_files = ["site.css"]
 html_extra_path = ["front"]
 html_copy_source = True
 html_show_sourcelink = False
+html_context = {"default_mode": "auto"}  # light or dark as the reader's system is
 html_theme_options = {
     "use_download_button": True,
     "use_fullscreen_button": True,

@@ -4,9 +4,12 @@ import json
 import re
 import sys
 from fnmatch import fnmatch
+from io import BytesIO
 from pathlib import Path
 
 import pytest
+from browser import Tab, without_browser
+from PIL import Image
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
@@ -14,6 +17,7 @@ pytest.importorskip("sphinx_book_theme", reason="the site's packages are not ins
 sys.path[:0] = [str(DOCS), str(DOCS / "extensions")]
 
 import check_links  # noqa: E402
+import check_pages  # noqa: E402
 import elsewhere  # noqa: E402
 import statements  # noqa: E402
 
@@ -46,6 +50,7 @@ def test_every_text_has_its_place_in_the_contents():
 
 def test_the_configuration_can_be_read_and_names_files_that_are_there(monkeypatch):
     monkeypatch.setenv("REPOSITORY", "somebody/course")
+    monkeypatch.setenv("DHKIT_SCENES", "")  # which it sets, and which is set back
     settings = {"__file__": str(DOCS / "conf.py")}
     exec(compile((DOCS / "conf.py").read_text(), "conf.py", "exec"), settings)
     assert settings["html_theme_options"]["repository_url"] == "https://github.com/somebody/course"
@@ -107,3 +112,61 @@ def test_styles_and_scripts_fetch_nothing(tmp_path):
     (tmp_path / "a.css").write_text('@font-face { src: url("https://fonts.example.org/a.woff2"); } p { fill: url(#b) }')
     (tmp_path / "a.js").write_text('const x = "https://example.org"; import("https://cdn.example.org/a.js")')
     assert len(check_links.faults(tmp_path)) == 2
+
+
+# ---------------------------------------------------------------- in a browser
+
+OPENED = {
+    "<script>undefined_name()</script>": "ReferenceError: undefined_name is not defined",
+    "<script>console.error('so', 1)</script>": "so 1",
+    '<div style="width: 400px">wide</div>': "400 pixels wide on a screen of 320",
+}
+
+
+@pytest.mark.slow
+@without_browser
+def test_pages_are_opened_and_faults_are_found(tmp_path):
+    head = '<meta charset="utf-8"><meta name="viewport" content="width=device-width"><body style="margin: 0">'
+    for number, html in enumerate(OPENED):
+        (tmp_path / f"{number}.html").write_text(head + html)
+    (tmp_path / "3.html").write_text(f'{head}<img src="missing.png"><img src="http://127.0.0.1:9/a.png">')
+    (tmp_path / "4.html").write_text(f'{head}<p id="a">right</p>')
+    (tmp_path / "search.html").write_text(f'{head}<ul id="search-results"></ul>')
+    found = check_pages.faults(tmp_path)
+    assert found[:3] == [f"{number}.html: {words}" for number, words in enumerate(OPENED.values())]
+    assert "3.html: it asks for http://127.0.0.1:9/a.png" in found
+    assert any("3.html" in each and each.endswith("missing.png") for each in found)
+    assert not any("4.html" in each for each in found)
+    assert found[-1] == "search.html: nothing is found for 'singular'"
+
+
+@pytest.mark.slow
+@without_browser
+def test_sliders_of_a_page_show_pictures_one_value_at_a_time(tmp_path):
+    from dhkit.flipbook import flipbook
+
+    def picture(values):
+        buffer = BytesIO()
+        Image.new("RGB", (100 + int(values["a"]), 100 + int(values["b"]))).save(buffer, format="png")
+        return buffer.getvalue()
+
+    book = flipbook(picture, {"a": (0, 8, 4), "b": (-40, 40, 0)})
+    program = (DOCS / "_static/flipbook.js").read_text()
+    (tmp_path / "page.html").write_text(f'<meta charset="utf-8">{book}<script>{program}</script>', encoding="utf-8")
+    tab = Tab(tmp_path, 600, 400)
+    try:
+        tab.tell("Page.navigate", url=(tmp_path / "page.html").as_uri())
+        tab.until("document.querySelectorAll('input').length === 2")
+        shown = "(await document.querySelector('img').decode(), [...document.querySelectorAll('output')].map((each) => each.textContent))"
+        size = "[document.querySelector('img').naturalWidth, document.querySelector('img').naturalHeight]"
+        assert (tab.ask(shown), tab.ask(size)) == (["4", "0"], [104, 100])
+        tab.ask("document.querySelectorAll('input')[1].focus()")
+        tab.press("ArrowLeft", 2)
+        assert (tab.ask(shown), tab.ask(size)) == (["4", "\N{MINUS SIGN}20"], [104, 80])
+        tab.ask("document.querySelectorAll('input')[0].focus()")
+        tab.press("ArrowRight")
+        assert (tab.ask(shown), tab.ask(size)) == (["5", "0"], [105, 100])
+        tab.press("ArrowLeft")
+        assert (tab.ask(shown), tab.ask(size)) == (["4", "0"], [104, 100])
+    finally:
+        tab.close()

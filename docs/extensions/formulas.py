@@ -12,6 +12,7 @@ from sphinx.util.math import get_node_equation_number
 from autograder.grading.inert import formula
 
 LOGGER = logging.getLogger(__name__)
+SHORT = 20  # letters of TeX that surely fit on a phone
 DOLLARS = re.compile(r"\$(?!\s)([^$<]+?)(?<!\s)\$")
 
 
@@ -22,8 +23,13 @@ def converted(node: nodes.Node, display: Literal["inline", "block"]) -> str:
     return found
 
 
+def in_line(tex: str, made: str) -> str:
+    """A formula within a line; one that may be wider than a phone is marked, so that it can scroll by itself."""
+    return made if len(tex) <= SHORT else f'<span class="long">{made}</span>'
+
+
 def inline(self, node: nodes.math) -> None:
-    self.body.append(converted(node, "inline"))
+    self.body.append(in_line(node.astext(), converted(node, "inline")))
     raise nodes.SkipNode
 
 
@@ -37,7 +43,7 @@ def block(self, node: nodes.math_block) -> None:
 def typeset(found: re.Match) -> str:
     """What stands between two dollars in HTML, as MathML if it is a formula."""
     made = formula(unescape(found[1]))
-    return made if made.startswith("<math") else found[0]
+    return in_line(found[1], made) if made.startswith("<math") else found[0]
 
 
 def within_outputs(app: Sphinx, tree: nodes.document, page: str) -> None:

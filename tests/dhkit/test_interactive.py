@@ -1,6 +1,8 @@
 """Sliders come with a static picture, and with the picture alone where widgets are missing."""
 
 import base64
+import json
+import re
 from io import BytesIO
 
 import matplotlib
@@ -8,10 +10,12 @@ import matplotlib
 matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
+import numpy as np
 import pytest
 
 from dhkit import interactive
 from dhkit.drawing import draw_chain, draw_planar_arm, view
+from dhkit.flipbook import stops_of
 
 PNG = b"\x89PNG"
 
@@ -70,6 +74,38 @@ def test_moving_a_slider_redraws(shown, watched, monkeypatch):
     interactive.explore(record, t1=(-1, 1, 0.3), t2=(-1, 1, 0.5))
     sliders[1].value = -0.5
     assert drawn == [{"t1": 0.3, "t2": 0.5}, {"t1": 0.3, "t2": -0.5}]
+
+
+@pytest.mark.slow
+def test_a_site_gets_pictures_of_each_slider_in_one_size(shown, monkeypatch):
+    monkeypatch.setenv("DHKIT_SCENES", "embedded")
+    drawn = []
+
+    def record(**values):
+        drawn.append(values)
+        return arm(**values)
+
+    interactive.explore(record, t1=(-1, 1, 0.3), t2=(-3, 3, 0))
+    (bundle,) = shown
+    assert base64.b64decode(bundle["image/png"]).startswith(PNG)
+    books = json.loads(re.search(r'<script type="application/json">(.*?)</script>', bundle["text/html"])[1])
+    assert [book["name"] for book in books] == ["t1", "t2"]
+    assert [book["stops"][book["start"]] for book in books] == [0.3, 0]
+    assert all({"t1": 0.3, "t2": stop} in drawn for stop in books[1]["stops"])
+    pages = [page for book in books for page in book["pages"] if page]
+    still = re.search(r'<img src="(.*?)"', bundle["text/html"])[1]
+    assert len(pages) == len(set(pages)) == 16 and still not in pages
+    sizes = {plt.imread(BytesIO(base64.b64decode(page.partition(",")[2])), "webp").shape for page in (*pages, still)}
+    assert len(sizes) == 1
+    assert [len(book["pages"]) for book in books] == [9, 9]
+    assert all(book["pages"][book["start"]] == "" for book in books)
+
+
+@pytest.mark.parametrize("low, high, start", [(-90, 90, 40), (0, 4, 4), (0, 4, 0), (-1, 1, 0.999), (0.02, 0.6, 0.1)])
+def test_stops_rise_from_end_to_end_through_the_start(low, high, start):
+    stops = stops_of(low, high, start)
+    assert (np.diff(stops) > 0).all()
+    assert (stops[0], stops[-1]) == (low, high) and start in stops
 
 
 SLIDERS = [(-90, 90, 40), (-180, 180, 50), (0.3, 1.2, 0.8), (-40, 75, 30), (-60, 120, 40), (0.0, 0.3, 0.2), (0, 4, 4)]
