@@ -267,6 +267,7 @@ def test_feedback_runs_no_script_of_a_student(ours):
         tree = BeautifulSoup(page.read_text(), "html.parser")
         harmless(tree.body)
         assert not tree.find_all(["script", "link", "iframe", "object", "embed", "form"])
+        assert "url(" not in str(tree.head) and "@import" not in str(tree.head)
     page = (ours / "feedback/scripts/scara/scara.html").read_text()
     assert "Content-Security-Policy" in page.partition("<title>")[0]
     assert "&lt;script&gt;alert('student')&lt;/script&gt;" in page
