@@ -24,6 +24,8 @@ ALMOST = [
     ("tables.freedoms", {"below": 1e-3}, "tolerance_of_the_rank"),
     ("orientation.zyz", {"lock": 1e-8 * 2}, "lock_seen_too_early"),
     ("orientation.zyz", {"lock": 3e-3}, "lock_seen_too_early"),
+    ("orientation.mended", {"lock": 0.01}, None),
+    ("orientation.mended", {"lock": 0.13}, "lock_seen_too_early"),
     ("parameters.link", {"slack": 1e-7}, "tolerance_too_wide"),
     ("workspace.count", {"needs_first": True}, "second_posture_only_after_the_first"),
 ]

@@ -1,9 +1,6 @@
-"""Orientation (EPFL and MECA 953 slides): Euler sets, roll-pitch-yaw, wrists, both triples, gimbal lock."""
+"""Orientation (EPFL and MECA 953 slides): Euler sets and roll-pitch-yaw; a controller, a camera and a wrist of one's own."""
 
 from __future__ import annotations
-
-import numpy as np
-import sympy
 
 from autograder.judge import Question, mistake
 from autograder.judge.misconceptions import (
@@ -23,36 +20,44 @@ from autograder.judge.steps import replace_entry, substitute
 
 from .model import (
     ALL,
-    BACK,
     ENTRIES,
-    FORTH,
     GYROSCOPE,
-    LEFT_AT_LOCK,
     OUTER,
     REVERSED_RPY,
     RPY,
     TRANSPOSED,
     XYZ,
     ZYZ,
-    add_to_roll,
     change_atan2,
-    change_pitch_only,
     change_t5_only,
-    draw_locked,
     draw_rotation_and_sign,
     draw_rotations,
     e,
     keep_one_of_bent,
-    list_rpy,
     name_bend,
     phi,
     psi,
-    read_from,
-    rpy_residual,
-    spin,
-    wrist_angles,
     zyz,
     zyz_residual,
+)
+from .own import (
+    AS_FOUND,
+    LECTURES_RPY,
+    LECTURES_RPY_FIXED,
+    LECTURES_WRIST,
+    STEEP,
+    change_pitch_only,
+    draw_locked,
+    draw_numbers,
+    draw_poses,
+    list_rpy,
+    locked,
+    misses,
+    name_pose,
+    own_hinges,
+    pan_tilt_roll,
+    rpy_residual,
+    tool_axes,
 )
 
 QUADRANT_LOST = (
@@ -61,28 +66,6 @@ QUADRANT_LOST = (
 )
 
 QUESTIONS = (
-    Question(
-        "orientation.own_fixed",
-        reference="B",
-        mistakes=(
-            option(
-                "A",
-                "moving_for_fixed",
-                "**Here the second axis moves with the brick.** The statement says the *fixed* x: the axis is painted on the floor.",
-            ),
-            option(
-                "C",
-                "same_result_believed",
-                "**The order of two factors matters.** Try it with a book: a turn about its own z, then about the fixed x; then with "
-                "both axes on the book.",
-            ),
-            option(
-                "D",
-                "angles_exchanged",
-                "**The angles have changed their axes.** Which axis does the first turn use, and by which angle?",
-            ),
-        ),
-    ),
     Question(
         "orientation.rpy_entries",
         reference=ENTRIES,
@@ -168,54 +151,6 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "orientation.rpy_both",
-        reference=list_rpy,
-        mistakes=(
-            one_triple_only(),
-            misprint(
-                change_pitch_only,
-                "roll and yaw come from pairs that carry the cosine of the pitch, and that has changed its sign. Put your second "
-                "triple back into the matrix: is it the same one?",
-            ),
-            extrinsic_for_intrinsic(
-                feedback="**The angles come in the reverse order.** Asked for are (roll, pitch, yaw): about x, about y, about z."
-            ),
-            degrees(0, 1, 2),
-        ),
-        angles=(0, 1, 2),
-        residual=rpy_residual,
-    ),
-    Question(
-        "orientation.spun",
-        reference=spin,
-        mistakes=(
-            mistake(
-                "fixed_for_moving",
-                0.5,
-                "**Your top has turned about the vertical of the room.** More yaw does just that, and so does a factor on the left. Look "
-                "at the axle: may a turn about the axle move it?",
-                read_from(lambda matrix: FORTH @ matrix @ BACK),
-            ),
-            mistake(
-                "added_to_the_roll",
-                0.4,
-                "**Your top has turned about its own x axis.** More roll does just that. The letter of the proper rotation is the "
-                "letter of the roll here, but the axis is another one.",
-                add_to_roll,
-            ),
-            mistake(
-                "transposed_rotation",
-                0.4,
-                "**These are the angles of the transposed matrix.** r32 stands in row 3, column 2.",
-                read_from(np.transpose),
-            ),
-            extrinsic_for_intrinsic(
-                feedback="**The angles come in the reverse order.** Asked for are (roll, pitch, yaw): about x, about y, about z."
-            ),
-            degrees(0, 1, 2),
-        ),
-    ),
-    Question(
         "orientation.printed",
         reference="D",
         mistakes=(
@@ -241,32 +176,79 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "orientation.lock",
-        reference=LEFT_AT_LOCK,
+        "orientation.display",
+        reference=tool_axes,
         mistakes=(
             mistake(
-                "roll_minus_yaw",
-                0.6,
-                "**This is roll - yaw.** Look at the sign of the sine in the matrix.",
-                lambda angle: -angle,
+                "moving_for_fixed",
+                0.4,
+                "**The letters are right, whose axes they are is not.** Try the second pose of the log too, and the other way of reading "
+                "the three turns.",
+                wrong={"reading": "other frames"},
             ),
-            atan_for_atan2(feedback=QUADRANT_LOST),
             mistake(
-                "sine_or_cosine_alone",
-                0.5,
-                "**An arcsine or an arccosine alone knows half of the circle.** Both the sine and the cosine of the angle stand in the matrix: "
-                "use them together.",
-                lambda angle: sympy.asin(angle.args[0]),
-                lambda angle: sympy.acos(angle.args[1]),
+                "degrees_taken_for_radians",
+                0.6,
+                "**The numbers of the display are degrees.** numpy and SymPy count in radians.",
+                wrong={"unit": "radians"},
             ),
-            atan2_arguments_exchanged(),
+            mistake(
+                "lectures_set_believed",
+                0.1,
+                "**This is a set of the lecture; your controller has another one.** Does your function give the axes of the log? Which set "
+                "does?",
+                wrong=[{"reading": LECTURES_RPY}, {"reading": LECTURES_WRIST}, {"reading": LECTURES_RPY_FIXED}],
+            ),
+            transposed_rotation(),
         ),
-        angles=(0,),
-        draw=draw_locked,
+        probe=draw_numbers,
+    ),
+    Question(
+        "orientation.rpy_both",
+        reference=list_rpy,
+        mistakes=(
+            one_triple_only(),
+            misprint(
+                change_pitch_only,
+                "roll and yaw come from pairs that carry the cosine of the pitch, and that has changed its sign. Put your second "
+                "triple back into the matrix: is it the same one?",
+            ),
+            mistake(
+                "camera_for_drone",
+                0.2,
+                "**These are the angles of the camera.** Asked is how the *drone* flies: how does the camera hang on it?",
+                wrong={"mount": "ignored"},
+            ),
+            mistake(
+                "mount_not_inverted",
+                0.5,
+                "**The camera is mounted twice.** From the drone to the camera there is one constant rotation; which way do you go?",
+                wrong={"mount": "put on again"},
+            ),
+            mistake(
+                "mount_on_the_left",
+                0.5,
+                "**The rotation of the mount stands on the wrong side.** Its axes move with the drone: they are not those of the world.",
+                wrong={"side": "left"},
+            ),
+            mistake(
+                "wrong_way_up",
+                0.6,
+                "**Your camera is turned by half a turn about its view.** Read again where the top of its picture is.",
+                wrong={"way_up": "other"},
+            ),
+            extrinsic_for_intrinsic(
+                feedback="**The angles come in the reverse order.** Asked for are (roll, pitch, yaw): about x, about y, about z."
+            ),
+            degrees(0, 1, 2),
+        ),
+        angles=(0, 1, 2),
+        residual=rpy_residual,
+        depends=("camera",),
     ),
     Question(
         "orientation.wrist",
-        reference=lambda mine, axes="own": wrist_angles(mine.wrist if axes == "own" else axes),
+        reference=own_hinges,
         mistakes=(
             mistake(
                 "sign_of_the_root_missing",
@@ -295,7 +277,7 @@ QUESTIONS = (
                 change_atan2(atan2_arguments_exchanged(), *OUTER),
             ),
             extrinsic_for_intrinsic(
-                feedback="**First and third angle have changed places.** Your wrist is {wrist}, axes that move: the first letter is the "
+                feedback="**First and third angle have changed places.** Your wrist is ({wrist}), axes that move: the first one belongs to the "
                 "joint nearest to the arm."
             ),
             mistake(
@@ -305,16 +287,104 @@ QUESTIONS = (
                 substitute(TRANSPOSED),
             ),
             mistake(
+                "senses_overlooked",
+                0.5,
+                "**A hinge turns about the negative axis.** Your wrist is ({wrist}): what is a turn by an angle about -x, about +x?",
+                wrong={"hinges": "straight"},
+            ),
+            mistake(
                 "another_wrist",
                 0.2,
-                "**These are the angles of another wrist.** The lecture's formulas hold for its own letters; yours are {wrist}. Write out the "
+                "**These are the angles of another wrist.** The lecture's formulas hold for its own axes; yours are ({wrist}). Write out the "
                 "product of your three turns, and look for the entries that hold one angle, or two.",
-                wrong=[{"axes": "zyz"}, {"axes": "zyx"}],
+                wrong=[{"hinges": "z, y, z"}, {"hinges": "z, y, x"}],
             ),
         ),
         partial=0.6,
         angles=ALL,
         draw=draw_rotation_and_sign,
+        depends=("wrist",),
+    ),
+    Question(
+        "orientation.lock",
+        reference=locked,
+        mistakes=(
+            mistake(
+                "other_combination",
+                0.4,
+                "**The outer angles are combined the other way.** Turn the third hinge a little at the lock: which turn of the first one "
+                "brings the end effector back? Yours are ({wrist}): with a minus a hinge turns the other way.",
+                wrong={"combination": "other"},
+            ),
+            mistake(
+                "angle_negated",
+                0.6,
+                "**The angle has the wrong sign.** Look at the sign of the sine in your matrix, and at the sense of your first hinge.",
+                lambda found: [found[0], -found[1]],
+            ),
+            mistake("quadrant_lost", 0.5, QUADRANT_LOST, wrong={"quotient": "atan"}),
+            degrees(1),
+        ),
+        angles=(1,),
+        probe=draw_locked,
+    ),
+    Question(
+        "orientation.misses",
+        reference=misses,
+        mistakes=(
+            degrees(*range(6)),
+            mistake(
+                "angles_compared",
+                0.3,
+                "**You compare the three angles.** Different triples may be the same orientation, at the lock above all. Compare the "
+                "matrices: which single turn leads from one to the other, and what is its trace?",
+                wrong={"measure": "difference"},
+            ),
+            mistake(
+                "norm_for_angle",
+                0.4,
+                "**This is the size of the difference of two matrices, no angle.** Which single turn leads from one to the other, and "
+                "what is its trace?",
+                wrong={"measure": "norm"},
+            ),
+        ),
+        places=False,
+    ),
+    Question(
+        "orientation.mended",
+        reference=pan_tilt_roll,
+        mistakes=(
+            mistake(
+                "as_it_was_found",
+                0.0,
+                "**The function is as it was.** Begin with the poses of question 9 that it misses: what is special about each?",
+                wrong=AS_FOUND,
+            ),
+            mistake(
+                "camera_that_looks_back",
+                0.6,
+                "**A camera that looks back is read as one that looks ahead.** One sine belongs to two angles: which entry tells them apart?",
+                wrong={"pan": "arcsin"},
+            ),
+            mistake(
+                "lock_seen_too_early",
+                0.6,
+                "**A steep camera is taken for a locked one.** Its pan and roll can still be told apart: what vanishes at the lock, and how "
+                "nearly?",
+                wrong={"lock": STEEP},
+            ),
+            mistake(
+                "down_as_up",
+                0.6,
+                "**Straight up and straight down are treated alike.** At one of them the sum of pan and roll is left, at the other the "
+                "difference. Write out the matrix for both.",
+                wrong={"down": "as up"},
+            ),
+            lock_not_switched({"lock": -1.0}),
+            degrees(0, 1, 2),
+        ),
+        probe=draw_poses,
+        case=name_pose,
     ),
     Question(
         "orientation.zyz",

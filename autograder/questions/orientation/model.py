@@ -1,4 +1,4 @@
-"""Orientation: rotation matrices of Euler sets, roll-pitch-yaw of a student's top, wrists, gimbal lock."""
+"""Orientation: rotation matrices of Euler sets, roll-pitch-yaw, wrists by their letters, gimbal lock."""
 
 from __future__ import annotations
 
@@ -6,12 +6,8 @@ import numpy as np
 import sympy
 
 from autograder.judge import Family
-from dhkit.geometry import rotation, rotation_angle_between
-from dhm.orientation import (
-    euler_matrix,
-    rpy,
-    rpy_matrix,
-)
+from dhkit.geometry import rotation_angle_between
+from dhm.orientation import euler_matrix
 from dhm.transforms import rot_x, rot_y, rot_z
 
 phi, theta, psi, e = sympy.symbols("phi theta psi e")
@@ -32,59 +28,7 @@ RPY = turns("zyx", psi, theta, phi)
 ENTRIES = [RPY[1, 1], RPY[1, 2]]
 REVERSED_RPY = turns("xyz", phi, theta, psi)
 GYROSCOPE = turns("zxz", psi, theta, phi)
-
-
 XYZ, ZYZ = turns("xyz", psi, theta, phi), turns("zyz", psi, theta, phi)
-
-
-def top(mine) -> np.ndarray:
-    """The orientation of the student's own top, (3, 3)."""
-    return euler_matrix(np.radians([mine.precession, mine.nutation, mine.spin]), "zxz", intrinsic=True)
-
-
-def list_rpy(mine) -> list[list[float]]:
-    """Both [roll, pitch, yaw] of the student's top."""
-    return rpy(top(mine)).angles.tolist()
-
-
-def rpy_residual(q, mine) -> np.ndarray:
-    """Angle between the rotations of triples (k, 3) and the student's top, (k,)."""
-    return rotation_angle_between(rpy_matrix(*q.T), top(mine))
-
-
-def change_pitch_only(found):
-    """As printed: the second triple has another pitch, and roll and yaw of the first one."""
-    first = found[0]
-    return [first, [first[0], np.pi - first[1], first[2]]]
-
-
-# The top spins on by 30 degrees; the notebook says so.
-FORTH, BACK = rotation("z", np.radians(30)), rotation("z", np.radians(-30))
-
-
-def spin(mine) -> list[float]:
-    """One [roll, pitch, yaw] of the student's top, turned about its own axle."""
-    return rpy(top(mine) @ FORTH).angles[0].tolist()
-
-
-def read_from(change):
-    """A step on a triple [roll, pitch, yaw]: `change` takes its rotation matrix, and the triple is read from the result."""
-    return lambda angles: rpy(change(rpy_matrix(*angles))).angles[0].tolist()
-
-
-def add_to_roll(angles):
-    """30 degrees are added to the roll of the top as it was before."""
-    roll, pitch, yaw = rpy(rpy_matrix(*angles) @ BACK).angles[0]
-    return [roll + np.radians(30), pitch, yaw]
-
-
-def draw_locked(rng: np.random.Generator) -> dict[str, float]:
-    """A sample point: the four entries at a pitch of 90 degrees."""
-    matrix = rpy_matrix(rng.uniform(-3, 3), np.pi / 2, rng.uniform(-3, 3))
-    return {f"r{i + 1}{j + 1}": matrix[i, j] for i in (0, 1) for j in (1, 2)}
-
-
-LEFT_AT_LOCK = sympy.atan2(-R[0, 1], R[1, 1])
 
 # ---------------------------------------------------------------- any wrist, by its letters
 

@@ -14,7 +14,7 @@ from .elbow_workspace import draw_elbow_workspace, draw_section
 from .frames import draw_dh_parameters, draw_frames_3d, mark_frame, mark_path
 from .gimbal import draw_gimbal
 from .gripper import draw_gripper
-from .orientation import draw_atan2, draw_brick_turns, draw_flip, draw_top, turn_in_steps
+from .orientation import draw_atan2, draw_brick_turns, draw_bricks, draw_flip, draw_top, turn_in_steps
 from .parallel import draw_3rpr, draw_3rrr, draw_assembly_modes, draw_coupler_curve, draw_leg_lines, platform_points
 from .parameter_steps import draw_parameter_steps
 from .pen import PEN_SIZES, draw_pen_robot, draw_pen_sheet, draw_pen_views, pen_tip
@@ -80,6 +80,7 @@ __all__ = [
     "draw_atan2",
     "draw_axis_cases",
     "draw_brick_turns",
+    "draw_bricks",
     "draw_chain",
     "draw_clouds",
     "draw_conventions",

@@ -8,9 +8,9 @@ from ..geometry import rigid_transform
 from .frames import add_frames
 from .inputs import as_axis_letters, as_numbers
 from .labels import Labels
-from .orientation import ANGLE_NAMES, axis_direction, draw_brick, draw_round_arrow, turn_in_steps
+from .orientation import ANGLE_NAMES, axis_direction, draw_brick, draw_grey_axes, draw_round_arrow, turn_in_steps
 from .strokes_3d import arc_points, write_3d
-from .style import AXIS_COLOURS, CENTRE_LINE, INK, SOFT, styled
+from .style import AXIS_COLOURS, CENTRE_LINE, INK, styled
 from .view import fit_3d, new_axes_3d, view_axes
 
 
@@ -53,7 +53,7 @@ def draw_gimbal(angles=(0.0, 0.0, 0.0), axes="zyx", ax=None, *, names=ANGLE_NAME
         centre = k * step
         _rings(ax, labels, centre, row, axes, names)
         if wanted is not None:
-            _grey_axes(ax, centre, wanted[k])
+            draw_grey_axes(ax, centre, wanted[k])
         if k < len(captions):
             write_3d(ax, centre + (0, 0, -2.3), captions[k], fontsize=10)
         points += [centre + s * 1.75 * v for s in (1, -1) for v in np.eye(3)]
@@ -62,13 +62,6 @@ def draw_gimbal(angles=(0.0, 0.0, 0.0), axes="zyx", ax=None, *, names=ANGLE_NAME
     fit_3d(ax, points, own, width=4.6 + 3.2 * (len(rows) - 1), height=4.8)
     labels.place(ax)
     return ax
-
-
-def _grey_axes(ax, centre, orientation):
-    """Thick grey arrows under those of the hand; they stick out, so that they show where both agree."""
-    for letter, direction in zip("xyz", np.asarray(orientation).T):
-        ax.plot(*zip(centre, centre + 0.84 * direction), color=SOFT, lw=5, alpha=0.55, zorder=5.5)
-        write_3d(ax, centre + 0.98 * direction, f"${letter}$", color=SOFT, fontsize=10)
 
 
 def gimbal_axes(angles, axes) -> np.ndarray:

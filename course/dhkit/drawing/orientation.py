@@ -73,6 +73,48 @@ def draw_brick(ax, orientation, centre, size=(1.0, 0.7, 0.24), zorder=2.0):
             ax.add_collection3d(face, autolim=False)
 
 
+def draw_grey_axes(ax, centre, orientation):
+    """Draw thick grey arrows under those of the hand; they stick out, so that they show where both agree."""
+    for letter, direction in zip("xyz", np.asarray(orientation).T):
+        ax.plot(*zip(centre, centre + 0.84 * direction), color=SOFT, lw=5, alpha=0.55, zorder=5.5)
+        write_3d(ax, centre + 0.98 * direction, f"${letter}$", color=SOFT, fontsize=10)
+
+
+@styled
+def draw_bricks(orientations, wanted, captions=(), ax=None, *, columns=3):
+    """Draw a brick in each of some orientations, with the axes of the wanted one in grey.
+
+    Parameters
+    ----------
+    orientations, wanted : array-like, shape (n, 3, 3)
+    captions : n texts
+        A line under each drawing.
+    columns : int
+        How many stand side by side.
+
+    Returns
+    -------
+    matplotlib Axes (3D)
+    """
+    orientations, wanted = (
+        as_numbers(each, name, (None, 3, 3)) for each, name in ((orientations, "orientations"), (wanted, "wanted"))
+    )
+    own, ax = ax is None, ax or new_axes_3d(elev=24, azim=-58)
+    right, up, _ = view_axes(ax)
+    points = []
+    for k, (orientation, grey) in enumerate(zip(orientations, wanted)):
+        centre = 2.5 * (k % columns) * right - 2.7 * (k // columns) * up
+        draw_brick(ax, orientation, centre, (0.62, 0.46, 0.18), zorder=4)
+        add_frames(ax, [rigid_transform(orientation, centre)], [""], 0.62)
+        draw_grey_axes(ax, centre, grey)
+        if k < len(captions):
+            write_3d(ax, centre - 1.25 * up, captions[k], fontsize=10)
+        points += [centre + step for step in (1.15 * right, -1.15 * right, 1.1 * up, -1.4 * up)]
+    rows, wide = -(-len(orientations) // columns), min(columns, len(orientations))
+    fit_3d(ax, points, own, width=0.6 + 2.6 * wide, height=0.3 + 2.7 * rows)
+    return ax
+
+
 @styled
 def draw_brick_turns(angles, axes="zyx", ax=None, *, about="moving"):
     """Draw a brick before and after each of some turns, side by side; the axis of each turn is a long line.

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..attitudes import Camera, Display, hinges
 from ..drawing.gimbal import draw_gimbal
-from ..drawing.orientation import turn_in_steps
+from ..drawing.orientation import draw_bricks, turn_in_steps
 from .own_result import called, numbers, numbers_in_rows, own_result
 
 JOINT_NAMES = (r"\theta_4", r"\theta_5", r"\theta_6")
@@ -68,45 +69,36 @@ def show_rpy_entries(answer, values: dict[str, float]):
 
 
 @own_result
-def show_triples(
-    answer, axes: str, rotation, order: Sequence[int] = (0, 1, 2), names=None, grey="the wanted orientation"
-):
-    """Show triples of angles on the rings, one drawing each, with the axes of another orientation in grey.
+def show_drone(answer, camera: Camera):
+    """Show a drone that flies with some triples of roll, pitch and yaw, beside the axes of its camera.
 
     Parameters
     ----------
-    answer : a row of three angles, or several, in radians; a row may be a dictionary of roll, pitch and yaw
-    axes : str
-        The set of moving axes that the rings stand for.
-    rotation : (3, 3), the orientation to compare with, as a rule the wanted one
-    order : three indices
-        Places of the angles in a row, outer ring first.
-    names : three texts, optional
-        Names of the angles in mathematical notation, outer ring first.
-    grey : str
-        What `rotation` is, in words.
+    answer : a row of roll, pitch and yaw, or several, in radians; a row may be a dictionary
+    camera : Camera
 
     Returns
     -------
     matplotlib Axes (3D)
-        Every brick belongs on the axes of the wanted orientation.
+        The grey axes should hang on every brick as the camera hangs on the drone.
     """
-    rows = numbers_in_rows(answer, "triples", 3)[:4, list(order)]
-    named = {} if names is None else {"names": names}
-    ax = draw_gimbal(rows, axes, wanted=np.asarray(rotation, float), **named)
-    _say(ax, COMPARED % (grey, "your angles"))
+    rows = numbers_in_rows(answer, "triples", 3)[:4]
+    drones = [turn_in_steps(row, "xyz", "fixed")[-1] for row in rows]
+    captions = [f"triple {k}" for k in range(1, len(rows) + 1)]
+    ax = draw_bricks(drones, [camera.rotation] * len(rows), captions)
+    _say(ax, COMPARED % ("the camera", "your drone"))
     return ax
 
 
 @own_result
-def show_wrist_formulas(answer, axes: str, angles=(0.6, 0.5, 0.4)):
+def show_wrist_formulas(answer, wrist: str, angles=(0.6, 0.5, 0.4)):
     """Show formulas for the three angles of a wrist, tried on one orientation with both signs e.
 
     Parameters
     ----------
     answer : three expressions in r11 ... r33 and e
-    axes : str
-        The set of moving axes.
+    wrist : str
+        The axes of its hinges, such as ``"z, -x, y"``.
     angles : array-like, shape (3,), in radians
         Angles of the orientation that is tried.
 
@@ -115,11 +107,114 @@ def show_wrist_formulas(answer, axes: str, angles=(0.6, 0.5, 0.4)):
     matplotlib Axes (3D)
         Both bricks belong on the grey axes.
     """
-    rotation = turn_in_steps(angles, axes)[-1]
+    axes, senses = hinges(wrist)
+    rotation = turn_in_steps(np.multiply(senses, angles), axes)[-1]
     values = {f"r{i + 1}{j + 1}": rotation[i, j] for i in range(3) for j in range(3)}
     rows = [numbers(answer, "angles", (3,), values | {"e": sign}) for sign in (1.0, -1.0)]
-    ax = draw_gimbal(rows, axes, names=JOINT_NAMES, captions=("e = 1", "e = \N{MINUS SIGN}1"), wanted=rotation)
+    captions = ("e = 1", "e = \N{MINUS SIGN}1")
+    ax = draw_gimbal(senses * np.array(rows), axes, names=_signed(senses), captions=captions, wanted=rotation)
     _say(ax, COMPARED % ("the wanted orientation", "your angles"))
+    return ax
+
+
+def _signed(senses) -> tuple[str, ...]:
+    """Names of the joints, with a minus where the joint turns about the opposite of the axis that is drawn."""
+    return tuple(name if sense > 0 else f"-{name}" for sense, name in zip(senses, JOINT_NAMES))
+
+
+@own_result
+def show_locked(locked, wrist: str, angles=(0.9, 0.5)):
+    """Show two triples of a locked wrist that have the sum, or difference, of outer angles which a function returns.
+
+    Parameters
+    ----------
+    locked : function (R: 3x3 nested list) -> [k, angle], in radians
+    wrist : str
+        The axes of its hinges, such as ``"z, -x, y"``.
+    angles : array-like, shape (2,), in radians
+        First and third angle of the orientation that is tried.
+
+    Returns
+    -------
+    matplotlib Axes (3D)
+        Both bricks belong on the grey axes.
+    """
+    axes, senses = hinges(wrist)
+    middle = 0.0 if axes[0] == axes[2] else np.pi / 2
+    rotation = np.round(turn_in_steps(np.multiply(senses, [angles[0], middle, angles[1]]), axes)[-1], 12) + 0.0
+    k, combined = numbers(called(locked, rotation.tolist()), "[k, angle]", (2,), {})
+    rows = np.array([(combined - k * third, middle, third) for third in (0.0, 1.2)])
+    captions = (r"third angle $0\degree$", r"third angle $69\degree$")
+    ax = draw_gimbal(senses * rows, axes, names=_signed(senses), captions=captions, wanted=rotation)
+    _say(ax, COMPARED % ("the locked wrist", "two triples with your k and your angle"))
+    return ax
+
+
+@own_result
+def show_display(reading, display: Display):
+    """Show a reading of a controller's numbers on the poses of its log.
+
+    Parameters
+    ----------
+    reading : function (A, B, C: numbers in degrees) -> 3x3 matrix
+    display : Display
+
+    Returns
+    -------
+    matplotlib Axes (3D)
+        Both bricks belong on the grey axes.
+    """
+    found = [numbers(called(reading, *shown), "matrix", (3, 3), {}) for shown in display.shown]
+    captions = [f"A, B, C = {', '.join(map(str, shown))}".replace("-", "\N{MINUS SIGN}") for shown in display.shown]
+    ax = draw_bricks(found, display.measured, captions)
+    _say(ax, COMPARED % ("as measured", "as you read the numbers"))
+    return ax
+
+
+@own_result
+def show_misses(answer, found, wanted):
+    """Show by how much a function misses orientations: a brick as it says, and below it the angle.
+
+    Parameters
+    ----------
+    answer : k angles in radians
+    found, wanted : (k, 3, 3)
+        Orientations that belong to the angles which the function returns, and those that it was given.
+
+    Returns
+    -------
+    matplotlib Axes (3D)
+        A brick that lies on the grey axes has the angle zero.
+    """
+    angles = numbers(answer, "angles", (len(wanted),), {})
+    ax = draw_bricks(
+        found, wanted, [f"pose {k}: {np.degrees(angle):.1f}\N{DEGREE SIGN}" for k, angle in enumerate(angles, 1)]
+    )
+    _say(ax, COMPARED % ("the pose", "what the function makes of it"))
+    return ax
+
+
+@own_result
+def show_extraction(extract, axes: str, tried: dict[str, Sequence[float]]):
+    """Show the triples that a function takes out of some orientations.
+
+    Parameters
+    ----------
+    extract : function (R: 3x3 nested list) -> three angles, in radians
+    axes : str
+        The set of moving axes.
+    tried : dict
+        Three angles in degrees by a caption.
+
+    Returns
+    -------
+    matplotlib Axes (3D)
+        Every brick belongs on the grey axes.
+    """
+    wanted = [np.round(turn_in_steps(np.radians(angles), axes)[-1], 12) + 0.0 for angles in tried.values()]
+    rows = [numbers(called(extract, matrix.tolist()), "angles", (3,), {}) for matrix in wanted]
+    ax = draw_bricks([turn_in_steps(row, axes)[-1] for row in rows], wanted, list(tried))
+    _say(ax, COMPARED % ("the orientation", "your angles"))
     return ax
 
 

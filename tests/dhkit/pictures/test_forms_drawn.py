@@ -10,6 +10,7 @@ import pytest
 import sympy
 
 from dhkit import pictures
+from dhkit.attitudes import Camera
 from dhkit.pictures.own_result import laid_out
 from dhkit.public import questions
 
@@ -53,7 +54,7 @@ def drawn(ax) -> bool:
         ),
         lambda: pictures.show_section({"z": 0.2, "rho": 0.8}, {"t2": 0.3, "t3": 0.4, "L1": 0.5, "L2": 0.3}),
         lambda: pictures.show_marks([[[True] + [False] * 3] * 4], {"U": sympy.eye(4)}),
-        lambda: pictures.show_triples({"yaw": 0.1, "roll": 0.2, "pitch": 0.3}, "zyx", np.eye(3), order=(2, 1, 0)),
+        lambda: pictures.show_drone({"yaw": 0.1, "roll": 0.2, "pitch": 0.3}, Camera("looks ahead", np.eye(3))),
         lambda: pictures.show_table(
             [{"theta": 0.3, "sigma": 0, "a": 0, "alpha": 0, "d": 0.2}, {"theta": 0.1, "sigma": 0, "a": 1, "alpha": 0, "d": 0}],
             {},

@@ -9,8 +9,19 @@ import pytest
 from mpl_toolkits.mplot3d import Axes3D
 from sympy import atan2, cos, sin, sqrt, symbols
 
+from dhkit.attitudes import Camera, Display
 from dhkit.drawing import turn_in_steps
-from dhkit.pictures.orientation import show_rotation, show_rpy_entries, show_triples, show_wrist, show_wrist_formulas
+from dhkit.pictures.orientation import (
+    show_display,
+    show_drone,
+    show_extraction,
+    show_locked,
+    show_misses,
+    show_rotation,
+    show_rpy_entries,
+    show_wrist,
+    show_wrist_formulas,
+)
 
 phi, theta, psi, e, r12, r13, r22, r32, r11 = symbols("phi theta psi e r12 r13 r22 r32 r11")
 SAMPLE = {"phi": 0.4, "theta": 0.6, "psi": 0.8}
@@ -48,16 +59,38 @@ RIGHT_ENTRIES = [
     sin(psi) * sin(theta) * cos(phi) - cos(psi) * sin(phi),
 ]
 RIGHT_WRIST = [atan2(e * r32, e * r22), atan2(-r12, e * sqrt(r32**2 + r22**2)), atan2(e * r13, e * r11)]
+CAMERA = Camera("looks ahead", ROTATION)
+DISPLAY = Display("I", ((30, 40, 50),), turn_in_steps(np.radians([30, 40, 50]), "yxz")[-1:])
 PICTURES = {
     "rotation": (lambda answer: show_rotation(answer, "zyx", SAMPLE, ORDER), ROTATION, ROTATION.T),
     "rpy_entries": (lambda answer: show_rpy_entries(answer, SAMPLE), RIGHT_ENTRIES, RIGHT_ENTRIES[::-1]),
-    "triples": (lambda answer: show_triples(answer, "zyx", ROTATION, (2, 1, 0)), [(0.4, 0.6, 0.8)], [(0.8, 0.6, 0.4)]),
+    "drone": (lambda answer: show_drone(answer, CAMERA), [(0.4, 0.6, 0.8)], [(0.8, 0.6, 0.4)]),
     "wrist_formulas": (
         lambda answer: show_wrist_formulas(answer, "xzy"),
         RIGHT_WRIST,
         [atan2(r32, r22), *RIGHT_WRIST[1:]],
     ),
+    "hinges": (
+        lambda answer: show_wrist_formulas(answer, "x, -z, y"),
+        [RIGHT_WRIST[0], atan2(r12, e * sqrt(r32**2 + r22**2)), RIGHT_WRIST[2]],
+        RIGHT_WRIST,
+    ),
     "wrist": (show_wrist, zyz, lambda R: [(0.0, 0.0, 0.0)]),
+    "locked": (
+        lambda answer: show_locked(answer, "z, y, -z"),
+        lambda R: [-1, np.arctan2(R[1][0], R[0][0])],
+        lambda R: [1, np.arctan2(R[1][0], R[0][0])],
+    ),
+    "display": (
+        lambda answer: show_display(answer, DISPLAY),
+        lambda *abc: turn_in_steps(np.radians(abc), "yxz")[-1],
+        lambda *abc: turn_in_steps(np.radians(abc), "yxz", "fixed")[-1],
+    ),
+    "extraction": (
+        lambda answer: show_extraction(answer, "zyz", {"ahead": (20, 30, 40), "behind": (20, 120, -40)}),
+        lambda R: zyz(R)[0],
+        lambda R: zyz(R)[0][::-1],
+    ),
 }
 
 
@@ -70,7 +103,14 @@ def test_right_answers_coincide_and_wrong_ones_do_not(name):
 
 
 @pytest.mark.parametrize(
-    ("name", "blank"), [("rotation", ...), ("rpy_entries", [..., ...]), ("triples", None), ("wrist", lambda R: None)]
+    ("name", "blank"),
+    [
+        ("rotation", ...),
+        ("rpy_entries", [..., ...]),
+        ("drone", None),
+        ("wrist", lambda R: None),
+        ("display", lambda A, B, C: None),
+    ],
 )
 def test_a_blank_shows_a_card(name, blank):
     ax = PICTURES[name][0](blank)
@@ -81,7 +121,10 @@ def test_a_blank_shows_a_card(name, blank):
     ("name", "odd"),
     [
         ("rotation", "R"),
-        ("triples", [(1, 2)]),
+        ("drone", [(1, 2)]),
+        ("locked", lambda R: 3.0),
+        ("display", lambda A, B, C: np.eye(2)),
+        ("extraction", 3),
         ("wrist", lambda R: []),
         ("wrist_formulas", 3),
         ("rpy_entries", [theta, symbols("q")]),
@@ -92,9 +135,15 @@ def test_an_answer_that_cannot_be_drawn_says_why(name, odd):
     assert not isinstance(ax, Axes3D) and "cannot be drawn" in said(ax)
 
 
-def test_a_triple_by_name_is_drawn_and_the_grey_axes_say_what_they_are():
-    ax = show_triples({"yaw": 0.8, "roll": 0.4, "pitch": 0.6}, "zyx", ROTATION, (2, 1, 0), grey="the top before")
-    assert apart(ax) < 0.01 and "the top before" in said(ax)
+def test_triples_by_name_are_drawn_and_the_grey_axes_say_what_they_are():
+    ax = show_drone({"yaw": 0.8, "roll": 0.4, "pitch": 0.6}, CAMERA)
+    assert apart(ax) < 0.01 and "the camera" in said(ax)
+
+
+def test_misses_are_written_below_what_a_function_makes_of_poses():
+    ax = show_misses([0, np.radians(12.34)], [ROTATION, ROTATION], [ROTATION, ROTATION.T])
+    assert "pose 1: 0.0°" in said(ax) and "pose 2: 12.3°" in said(ax) and apart(ax) > 3
+    assert "not complete" in said(show_misses([0, ...], [ROTATION] * 2, [ROTATION] * 2))
 
 
 def test_a_matrix_that_is_no_rotation_is_told():
