@@ -218,8 +218,7 @@ def locked(rows, *, mine, combination="own", quotient="atan2") -> list[float]:
     # Behind the lock the third axis lies along the first one, or against it.
     along = 1 if i == k else handed * middle
     sine, cosine = handed * matrix[m, j], matrix[j, j]
-    with np.errstate(divide="ignore"):
-        angle = np.arctan2(sine, cosine) if quotient == "atan2" else np.arctan(sine / cosine)
+    angle = np.arctan2(sine, cosine) if quotient == "atan2" else np.arctan(sine / cosine)
     sense = first * third * along
     return [sense if combination == "own" else -sense, float(first * angle)]
 
@@ -227,7 +226,7 @@ def locked(rows, *, mine, combination="own", quotient="atan2") -> list[float]:
 def draw_locked(rng: np.random.Generator, mine) -> list[list]:
     """Argument lists: orientations at which the student's wrist is locked, in all four quadrants, round ones too."""
     axes, senses = hinges(mine.wrist)
-    outer = [*rng.uniform(-3, 3, (8, 2)), (0.0, 0.0), (np.pi / 2, 0.0), (0.0, np.pi / 2)]
+    outer = [*rng.uniform(-3, 3, (8, 2)), (0.0, 0.0), (np.pi, 0.0), (0.0, np.pi)]
     angles = [np.multiply(senses, (first, lock_of(axes), third)) for first, third in outer]
     return [[(np.round(euler_matrix(one, axes, intrinsic=True), 12) + 0.0).tolist()] for one in angles]
 
