@@ -176,7 +176,7 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "orientation.display",
+        "orientation.tool_axes",
         reference=tool_axes,
         mistakes=(
             mistake(
