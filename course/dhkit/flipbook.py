@@ -8,6 +8,8 @@ import json
 from collections.abc import Callable, Mapping
 from io import BytesIO
 
+from matplotlib.image import imread, imsave
+
 from .drawing.style import shown_size
 
 STOPS = 9  # of a slider
@@ -49,8 +51,6 @@ def flipbook(picture: Callable[[dict[str, float]], bytes], sliders: Mapping[str,
 
 
 def _as_url(png: bytes) -> str:
-    from PIL import Image
-
     buffer = BytesIO()
-    Image.open(BytesIO(png)).convert("RGB").save(buffer, format="webp", quality=_QUALITY)
+    imsave(buffer, imread(BytesIO(png)), format="webp", pil_kwargs={"quality": _QUALITY})
     return f"data:image/webp;base64,{base64.b64encode(buffer.getvalue()).decode()}"
