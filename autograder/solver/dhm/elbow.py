@@ -118,19 +118,18 @@ class ArmGeometry:
         branches, tip = self.in_plane(point, anchors[0], tol)
         fore_phase = np.angle(self.fore)
         arm = two_link(tip, self.upper, abs(self.fore), anchors[1], tol)
-        outside = np.maximum(arm.beyond, arm.short)
-        nearer = outside.argmin(axis=0)
-        columns = np.arange(tip.shape[-1])
         first, bend, first_turn, bend_turn, reached = (by_elbow.swapaxes(0, 1) for by_elbow in arm[:5])
         valid = reached & branches.valid[:, None]
-        excess, failure = (
-            outside[nearer, columns],
-            np.where(arm.beyond > arm.short, Failure.BEYOND, Failure.SHORT)[nearer, columns],
-        )
-        inside = ~branches.valid[0] & (branches.inside >= excess)  # of two conditions the one that is missed by more
-        excess = np.where(inside, branches.inside, excess)
-        failure = np.where(inside, Failure.INSIDE, failure)
-        solved = valid.any(axis=(0, 1))
+        lost = ~valid.any(axis=(0, 1))
+        excess, failure = np.zeros(lost.size), np.full(lost.size, Failure.NONE, dtype=int)
+        if lost.any():
+            missed = np.maximum(arm.beyond, arm.short)[:, lost]
+            nearer = missed.argmin(axis=0), np.arange(missed.shape[1])
+            too_far = (arm.beyond > arm.short)[:, lost][nearer]
+            inside = branches.inside[lost]
+            within = ~branches.valid[0, lost] & (inside >= missed[nearer])  # of two conditions the one missed by more
+            excess[lost] = np.where(within, inside, missed[nearer])
+            failure[lost] = np.where(within, Failure.INSIDE, np.where(too_far, Failure.BEYOND, Failure.SHORT))
         return Postures(
             first=np.angle(branches.phasor),
             second=first,
@@ -139,8 +138,8 @@ class ArmGeometry:
             fore_phasor=first_turn * bend_turn * phasor(-fore_phase),
             valid=valid,
             flags=np.broadcast_to((two_link_flags(arm) | branches.flags)[:, None], valid.shape),
-            excess=np.where(solved, 0.0, excess),
-            failure=np.where(solved, Failure.NONE, failure),
+            excess=excess,
+            failure=failure,
         )
 
     def label(self, branch: int, flags: int) -> str:
@@ -280,7 +279,7 @@ class Wrist:
 
     def solve(
         self, x: Sequence[np.ndarray], y: Sequence[np.ndarray], z: Sequence[np.ndarray], near: np.ndarray | None
-    ) -> tuple[list[np.ndarray], np.ndarray]:
+    ) -> tuple[list[tuple[np.ndarray, np.ndarray]], np.ndarray]:
         """Joint values of both wrist branches.
 
         Parameters
@@ -292,7 +291,7 @@ class Wrist:
 
         Returns
         -------
-        list of three (2, ...) arrays
+        list of three pairs of (...) arrays
             Joint values, radians; branch 0 has the middle joint in [0, pi] (if its offset is a multiple of pi).
         (...) uint8 array
             `Flag` bits.
@@ -317,7 +316,7 @@ class Wrist:
         u6 = np.arctan2(c4 * m21 - s4 * m11, c4 * m22 - s4 * m12)
         flags = np.where(aligned, np.where(m33 < 0, Flag.FREE_LINE | Flag.FOLDED_LINE, Flag.FREE_LINE), 0)
         both = [
-            np.stack([self._joint(i, sign * first), self._joint(i, sign * second)])
+            (self._joint(i, sign * first), self._joint(i, sign * second))
             for i, sign, first, second in (
                 (0, 1.0, u4, u4 + np.pi),
                 (1, self.signs[0], u5, -u5),
@@ -384,8 +383,10 @@ class WristedArm(InverseModel):
         demand_length(abs(self.arm.fore), "the forearm", "the wrist centre's distance from axis 3")
 
     def closed_form(self, poses: np.ndarray, near: np.ndarray | None, tol: float) -> Branches:
-        hand = self.arm.to_arm @ poses @ self.wrist.to_hand
-        s, n, a, centre = np.ascontiguousarray(hand[:, :3].transpose(2, 1, 0))
+        # Two products of all poses at once; so many small ones would take as long as the rest.
+        moved = (poses.reshape(-1, 4) @ self.wrist.to_hand).reshape(-1, 4, 4)
+        hand = self.arm.to_arm[:3] @ moved.transpose(1, 2, 0).reshape(4, -1)
+        s, n, a, centre = hand.reshape(3, 4, -1).swapaxes(0, 1)
         arm = self.arm.postures(centre, [self.map.row(i, near) for i in (0, 1)], tol)
         # The hand's axes seen from frame 1, then from frame 3.
         back1, back3 = np.conj(arm.first_phasor), np.conj(arm.fore_phasor)
@@ -403,7 +404,7 @@ class WristedArm(InverseModel):
         q[1] = self.map.joint(1, arm.second)[:, :, None]
         q[2] = self.map.joint(2, arm.third)[:, :, None]
         for i, both in enumerate((q4, q5, q6)):
-            q[3 + i] = np.moveaxis(both, 0, 2)
+            q[3 + i, :, :, 0], q[3 + i, :, :, 1] = both
         valid = np.repeat(arm.valid[:, :, None], 2, axis=2)
         valid[:, :, 1] &= wrist_flags == 0
         flags = np.repeat((arm.flags | wrist_flags)[:, :, None], 2, axis=2)
@@ -452,7 +453,7 @@ class WristAlone(InverseModel):
         failure = np.where(valid[0], Failure.NONE, Failure.OFF)
         excess = np.where(valid[0], 0.0, excess)
         valid[1] &= flags == 0
-        return Branches(np.stack(both), valid, np.stack([flags, flags]), excess, failure)
+        return Branches(np.array(both), valid, np.stack([flags, flags]), excess, failure)
 
     def label(self, branch: int, flags: int) -> str:
         return self.wrist.label(branch, flags)

@@ -52,11 +52,16 @@ def wrap(angle: ArrayLike, rounding: float = 6e-13) -> np.ndarray:
     -------
     ndarray, shape (...), in radians
     """
-    angle = np.asarray(angle)
-    turns = np.ceil((angle - np.pi - rounding) * (0.5 / np.pi))
-    near = np.minimum(angle - turns * (2 * np.pi), np.pi)
-    huge = np.abs(turns) >= 1e9
-    return np.where(huge, np.pi - np.remainder(np.pi - angle, 2 * np.pi), near)[()] if huge.any() else near
+    angle = np.asarray(angle, dtype=float)
+    turns = np.subtract(angle, np.pi + rounding, out=np.empty(angle.shape))
+    turns *= 0.5 / np.pi
+    np.ceil(turns, out=turns)
+    if max(turns.max(initial=0.0), -turns.min(initial=0.0)) >= 1e9:
+        near = np.minimum(angle - turns * (2 * np.pi), np.pi)
+        return np.where(np.abs(turns) < 1e9, near, np.pi - np.remainder(np.pi - angle, 2 * np.pi))[()]
+    turns *= -2 * np.pi
+    turns += angle
+    return np.minimum(turns, np.pi, out=turns)[()]
 
 
 def lies_between(angle: ArrayLike, low: ArrayLike, high: ArrayLike, tolerance: float = 0.0) -> np.ndarray:

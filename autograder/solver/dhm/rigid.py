@@ -6,7 +6,6 @@ import warnings
 
 import numpy as np
 
-from .geometry import cross
 from .status import RoundedInput
 
 _RIGID = 1e-5  # how far a transform may be from rigid: poses rounded to six decimals pass as they are
@@ -46,8 +45,11 @@ def rigid(T: np.ndarray) -> np.ndarray:
 
 def _off_rigid(T: np.ndarray) -> np.ndarray:
     """How far the rotations of transforms (N, 4, 4) are from rotations, (N,)."""
-    s, n, a = np.moveaxis(T[:, :3, :3], 2, 0)
-    wrong = [(s * s).sum(1) - 1, (n * n).sum(1) - 1, (s * n).sum(1), *(cross(s, n) - a).T]
+    (sx, nx, ax), (sy, ny, ay), (sz, nz, az) = np.ascontiguousarray(T[:, :3, :3].transpose(1, 2, 0))
+    wrong = [
+        *(sx * sx + sy * sy + sz * sz - 1, nx * nx + ny * ny + nz * nz - 1, sx * nx + sy * ny + sz * nz),
+        *(sy * nz - sz * ny - ax, sz * nx - sx * nz - ay, sx * ny - sy * nx - az),
+    ]
     return np.abs(wrong).max(axis=0, initial=0.0)
 
 

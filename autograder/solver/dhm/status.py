@@ -52,6 +52,8 @@ class Flag(IntFlag):
 
 def two_link_flags(arm: TwoLink) -> np.ndarray:
     """STRETCHED, FOLDED or FREE_PLANE for the postures of a two-link arm, uint8 bits of shape (...)."""
+    if not (arm.stretched.any() or arm.folded.any()):  # where the first joint is free, the arm is folded
+        return np.zeros(arm.stretched.shape, dtype=np.uint8)
     flags = np.where(arm.stretched, Flag.STRETCHED, 0) | np.where(arm.folded & ~arm.free, Flag.FOLDED, 0)
     return (flags | np.where(arm.free, Flag.FREE_PLANE, 0)).astype(np.uint8)
 
