@@ -64,7 +64,7 @@ def _name(symbol: sp.Symbol) -> str:
         letter = symbol.name[0] if symbol.name[0] in "CS" else "\\theta"
         return f"{letter}_{{{_index(symbol)}}}".replace("m", "-")
     entry, axis, frame = symbol.name.split("_")
-    return f"{{}}^{{{frame}}}{entry}_{{{axis}}}"
+    return f"\\;{{}}^{{{frame}}}{entry}_{{{axis}}}"  # the space keeps the frame apart from a factor before it
 
 
 def _given(setting: Setting) -> Iterator[str]:
