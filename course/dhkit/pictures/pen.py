@@ -178,7 +178,8 @@ def show_trace(follow, arm: Arm, curve):
     trace = np.array([end_frame(arm, q)[:3, 3] for q in rows])
     away = 1000 * np.linalg.norm(trace - curve, axis=1).max()
     ax = mark_curve(draw_arm(arm, rows[len(rows) // 3], end_effector=False), curve, trace)
-    said = [f"trace at most {away:.2g} mm from the curve" if away < 1e4 else "trace far from the curve"]
+    size = f"{away:.2g}" if away < 100 else f"{away:.0f}"
+    said = [f"trace at most {size} mm from the curve" if away < 1e4 else "trace far from the curve"]
     said += [_largest(joint, values) for joint, values in zip(arm.joints, rows.T, strict=True)]
     ax.figure.suptitle("\n".join(said), fontsize=10, y=1.02, va="bottom")
     return ax

@@ -143,8 +143,9 @@ def test_the_trace_is_measured_and_the_stops_are_looked_at():
     said = words(pictures.show_trace(right, ARM, CURVE))
     assert "mm from the curve" in said and "beyond" not in said
     assert "m, beyond the stop" in words(pictures.show_trace(lambda *point: right(*point, share=1.0), ARM, CURVE))
-    above = lambda *point: np.array(right(*point)) + [0.01, 0, 0]  # noqa: E731
-    assert "at most 10 mm" in words(pictures.show_trace(above, ARM, CURVE))
+    for far, said in ((0.01, "at most 10 mm"), (0.234, "at most 234 mm")):
+        above = lambda *point, far=far: np.array(right(*point)) + [far, 0, 0]  # noqa: E731
+        assert said in words(pictures.show_trace(above, ARM, CURVE))
 
 
 def test_a_solution_that_misses_is_counted():
