@@ -41,13 +41,27 @@ ARMS = {
 }
 
 
+SLIDING = {
+    "boom with its rod on the left": _walk("turn q1, left a, ahead q2"),
+    "boom with its rod on the right": _walk("turn q1, right a, ahead q2"),
+    "crane on a rail across": _walk("left q1, turn q2, ahead a"),
+    "crane on a rail ahead": _walk("ahead q1, turn q2, ahead a"),
+}
+"""Arms of two joints of which one slides."""
+
+
+def walk_of(arm: str) -> tuple[Step, ...]:
+    """The steps of an arm of `ARMS` or `SLIDING`."""
+    return (ARMS | SLIDING)[arm]
+
+
 def places(arm: str, values: Mapping[str, float]) -> tuple[np.ndarray, np.ndarray]:
     """Where the walker stands and looks, at the base and after each of the n steps of a walk.
 
     Parameters
     ----------
     arm : str
-        A name of `ARMS`.
+        A name of `ARMS` or `SLIDING`.
     values : mapping
         Numbers for the letters of the walk, in metres and radians.
 
@@ -61,7 +75,7 @@ def places(arm: str, values: Mapping[str, float]) -> tuple[np.ndarray, np.ndarra
     directions = {"ahead": 1, "left": 1j, "right": -1j}
     at: list[Any] = [0j]
     heading = [0.0]
-    for do, letter in ARMS[arm]:
+    for do, letter in walk_of(arm):
         value = float(values[letter])
         heading.append(heading[-1] + (value if do == "turn" else 0.0))
         at.append(at[-1] if do == "turn" else at[-1] + value * directions[do] * phasor(heading[-1]))
@@ -71,7 +85,7 @@ def places(arm: str, values: Mapping[str, float]) -> tuple[np.ndarray, np.ndarra
 def describe(arm: str) -> str:
     """The walk in words, one line for each step."""
     lines = []
-    for number, (do, letter) in enumerate(ARMS[arm], 1):
+    for number, (do, letter) in enumerate(walk_of(arm), 1):
         whose = (
             f" (joint {JOINTS.index(letter) + 1} {'turns' if do == 'turn' else 'slides'})" if letter in JOINTS else ""
         )
@@ -99,3 +113,33 @@ def telescope_targets(mine: Mapping[str, Any]) -> list[tuple[float, float]]:
 def order_of_targets(mine: Mapping[str, Any]) -> list[str]:
     """The kinds of the six targets in the student's own order."""
     return [TARGETS[int(digit)] for digit in mine["order"]]
+
+
+def sliding_limits(mine: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
+    """Ranges (min, max) of q1 and q2 of the student's arm of `SLIDING`, ``mine.slider``, in metres and radians."""
+    turn = np.radians((mine["turn_min"], mine["turn_max"]))
+    if mine["slider"] == "crane on a rail ahead":
+        turn = turn - np.radians(80)
+    ranges = {"turn": tuple(turn.tolist()), "slide": (mine["out_min"], mine["out_max"])}
+    steps = {letter: do for do, letter in walk_of(mine["slider"])}
+    return {joint: ranges["turn" if steps[joint] == "turn" else "slide"] for joint in ("q1", "q2")}
+
+
+def sliding_outline(mine: Mapping[str, Any], count: int = 60) -> np.ndarray:
+    """The outline of what the student's arm of `SLIDING` reaches, shape (4 count, 2): the image of its ranges' border."""
+    (low1, high1), (low2, high2) = sliding_limits(mine).values()
+    first, second = np.linspace(low1, high1, count), np.linspace(low2, high2, count)
+    border = [
+        *((q1, low2) for q1 in first),
+        *((high1, q2) for q2 in second),
+        *((q1, high2) for q1 in first[::-1]),
+        *((low1, q2) for q2 in second[::-1]),
+    ]
+    return np.array([places(mine["slider"], {"a": mine["a"], "q1": q1, "q2": q2})[0][-1] for q1, q2 in border])
+
+
+def stations(mine: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
+    """Three stations (x, y) before the wall y = 0 that carries the student's RR arm, in metres."""
+    far, near = (abs(mine["L1"] + mine["L2"] * phasor(np.radians(mine[stop]))) for stop in ("t2_min", "t2_max"))
+    wanted = {"A": (0.35 * far, 0.9 * far), "B": (-0.5 * far, 0.5 * far), "C": (0.22 * far - 0.87 * near, 0.5 * near)}
+    return {name: (round(float(x), 2), round(float(y), 2)) for name, (x, y) in wanted.items()}

@@ -24,6 +24,7 @@ from .model import (
     SECTION,
     always,
     area,
+    base,
     cloud,
     count,
     draw_places,
@@ -82,23 +83,22 @@ QUESTIONS = (
                 wrong={"shape": "diagonal"},
             ),
             mistake(
-                "ranges_exchanged",
+                "other_side",
                 0.4,
-                "**Each joint has the other's range.** Joint 1 goes from {t1_min} to {t1_max} degrees.",
-                wrong={"ranges": "exchanged"},
+                "**The first step from the base goes to the wrong side.** Look at the walk of your arm: the *{slider}*.",
+                wrong={"side": "other"},
             ),
             mistake(
-                "angle_not_summed",
-                0.3,
-                "**The forearm is drawn as if theta2 were measured from the x axis.** It goes from the upper arm to the forearm.",
-                wrong={"shape": "absolute"},
+                "length_forgotten",
+                0.2,
+                "**The length a is not in it.** Your arm does not come to an end where its joints do.",
+                wrong={"length": False},
             ),
             mistake(
                 "stops_ignored",
-                0.1,
-                "**These are the points of an arm without stops.** Each joint has a range of its own: joint 1 goes from {t1_min} to {t1_max} "
-                "degrees.",
-                wrong=[{"ranges": "full"}, {"ranges": "disc"}],
+                0.2,
+                "**The joint that turns has stops.** Your points go all the way round.",
+                wrong={"ranges": "full"},
             ),
         ),
         tolerance=0.04,
@@ -176,23 +176,49 @@ QUESTIONS = (
             mistake(
                 "degrees",
                 0.5,
-                "**The width of the range of theta1 is in degrees.** An arc has the length r times the angle in radians.",
+                "**An angle is in degrees.** The width of a range that turns, and the argument of a sine, are in radians.",
                 np.degrees,
             ),
             mistake(
-                "full_turn",
-                0.5,
-                "**This is the area for a full turn of joint 1.** Its range is narrower.",
-                wrong={"turn": "full"},
-            ),
-            mistake(
-                "sine_not_integrated",
+                "patches_alike",
                 0.3,
-                "**The patches do not all have the same size.** You multiplied the two widths; the determinant depends on theta2 and "
-                "must be integrated.",
-                wrong={"sheet": "product"},
+                "**The patches do not all have the same size.** You multiplied the two widths; the determinant depends on one of your "
+                "joints and must be integrated over it.",
+                wrong={"patch": "product"},
             ),
         ),
+    ),
+    Question(
+        "workspace.base",
+        reference=base,
+        mistakes=(
+            mistake(
+                "hole_overlooked",
+                0.5,
+                "**A station may be too near.** From one of your places the end effector would have to come closer to the base than your elbow "
+                "bends.",
+                wrong={"hole": False},
+            ),
+            mistake(
+                "stops_ignored",
+                0.4,
+                "**The elbow has stops.** Yours goes from {t2_min} to {t2_max} degrees: it is never straight and never folded.",
+                wrong={"stops": False},
+            ),
+            mistake(
+                "heights_overlooked",
+                0.3,
+                "**The distance from the base is not the distance along the wall.** The stations stand before the wall: Pythagoras.",
+                wrong={"heights": False},
+            ),
+            mistake(
+                "station_forgotten",
+                0.5,
+                "**One station is out of reach from one of your places.** Try all three from both ends.",
+                wrong={"left_out": "B"},
+            ),
+        ),
+        depends=("L1", "L2", "t2_min", "t2_max"),
     ),
     Question(
         "workspace.full_turn",

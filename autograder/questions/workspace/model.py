@@ -9,9 +9,10 @@ import numpy as np
 import sympy
 
 from autograder.reference import robots
-from dhkit.geometry import lies_between, unit_vector
+from dhkit.geometry import lies_between
+from dhkit.planar_arms import sliding_limits, stations, walk_of
 from dhm.equations import type8
-from dhm.workspace import RRArm, planar_points, rr_grid
+from dhm.workspace import RRArm
 
 t1, t2, t3, L1, L2 = sympy.symbols("t1 t2 t3 L1 L2")
 t1i, t1j, t2i, t2j = sympy.symbols("t1i t1j t2i t2j")
@@ -35,30 +36,46 @@ def _range(low, high) -> tuple[float, float]:
     return tuple(np.radians([low, high]))
 
 
-def cloud(mine, shape="grid", ranges="own") -> list[list[float]]:
-    """Points [x, y] of the workspace.
+def cloud(mine, *, shape="grid", side="right", length=True, ranges="own") -> list[list[float]]:
+    """Points [x, y] that the student's arm with a slide reaches.
 
-    `shape` may be ``"diagonal"``, both joints in step, or ``"absolute"``, both angles counted from the x axis; `ranges`
-    may be ``"exchanged"``, or those of ``"full"`` turns, or all that is no further away than the stretched arm, a ``"disc"``.
+    `shape` may be ``"diagonal"``, both joints in step; the first step after the base may go to the ``"other"`` `side`; the
+    `length` may be forgotten, and the `ranges` be those of a joint that turns in ``"full"``.
     """
-    arm = own_arm(mine)
-    if ranges == "exchanged":
-        arm = replace(arm, q1=arm.q2, q2=arm.q1)
-    elif ranges != "own":
-        reach = arm.l1 + arm.l2
-        lengths = (arm.l1, arm.l2) if ranges == "full" else (reach / 2, reach / 2)
-        arm = RRArm(*lengths, q2=(0, np.pi))
-    wide = arm.q1[1] - arm.q1[0] >= 2 * np.pi
-    q1, q2 = np.linspace(*arm.q1, 120 if wide else 60), np.linspace(*arm.q2, 40 if wide else 24)
+    limits = sliding_limits(mine)
+    steps = walk_of(mine.slider)
+    if ranges == "full":
+        turning = next(letter for do, letter in steps if do == "turn")
+        limits = limits | {turning: (-np.pi, np.pi)}
     if shape == "diagonal":
-        together = np.stack([np.linspace(*limits, 400) for limits in (arm.q1, arm.q2)], axis=-1)
-        points = planar_points((arm.l1, arm.l2), together)
-    elif shape == "absolute":
-        first, second = np.meshgrid(q1, q2)
-        points = arm.l1 * unit_vector(first) + arm.l2 * unit_vector(second)
+        values = [np.linspace(*row, 400) for row in limits.values()]
     else:
-        points = rr_grid(arm.l1, arm.l2, q1, q2)
-    return points.reshape(-1, 2).tolist()
+        values = [grid.ravel() for grid in np.meshgrid(*(np.linspace(*row, 60) for row in limits.values()))]
+    known = dict(zip(limits, values), a=mine.a if length else 0.0)
+    directions = {"ahead": 1, "left": 1j, "right": -1j}
+    at, heading, flip = 0j, 1.0 + 0j, side == "other"
+    for do, letter in steps:
+        if do == "turn":
+            heading = heading * np.exp(1j * known[letter])
+        else:
+            at, flip = at + (-1 if flip else 1) * known[letter] * directions[do] * heading, False
+    return np.stack(np.broadcast_arrays(np.real(at), np.imag(at)), axis=-1).reshape(-1, 2).tolist()
+
+
+def area(mine, patch="integrated") -> float:
+    """Area in square metres that the student's arm with a slide sweeps; `patch` may be the ``"product"`` of the two widths."""
+    limits = sliding_limits(mine)
+    (turn, (low, high)), (_, (inner, outer)) = sorted(
+        ((do == "turn", limits[letter]) for do, letter in walk_of(mine.slider) if letter in limits), reverse=True
+    )
+    assert turn
+    boom = mine.slider.startswith("boom")
+    if patch == "product":
+        return (high - low) * (outer - inner) * (1 if boom else mine.a)
+    if boom:  # the patch grows with the rod; how far it stands aside does not matter
+        return (high - low) * (outer**2 - inner**2) / 2
+    swept = np.sin(high) - np.sin(low) if mine.slider.endswith("ahead") else np.cos(low) - np.cos(high)
+    return float(mine.a * (outer - inner) * swept)
 
 
 def pallet(mine, *, stops=True, corners=True, depth=True) -> list[float]:
@@ -73,16 +90,26 @@ def pallet(mine, *, stops=True, corners=True, depth=True) -> list[float]:
     return [float(least), float(np.sqrt(most**2 - aside**2) - (mine.deep if depth else 0.0))]
 
 
-def area(mine, turn="own", sheet="integrated") -> float:
-    """Area in square metres that the arm sweeps with its elbow bent to one side.
+def base(mine, *, hole=True, stops=True, heights=True, left_out="") -> list[float]:
+    """The leftmost and the rightmost place on the wall from which the arm reaches all stations.
 
-    `turn` may be ``"full"``, and `sheet` the ``"product"`` of the two widths.
+    Overlooked may be the `hole` about the base, the elbow's `stops`, the `heights` of the stations above the wall, and one
+    station, `left_out`.
     """
     arm = own_arm(mine)
-    low, high = arm.q2
-    patch = {"integrated": abs(np.cos(low) - np.cos(high)), "product": high - low}[sheet]
-    width = arm.q1[1] - arm.q1[0] if turn == "own" else 2 * np.pi
-    return arm.l1 * arm.l2 * width * patch
+    ends = np.radians([mine.t2_max, mine.t2_min]) if stops else np.array([np.pi, 0.0])
+    near, far = np.abs(arm.l1 + arm.l2 * np.exp(1j * ends))
+    low, high, holes = -np.inf, np.inf, []
+    for name, (x, y) in stations(mine).items():
+        if name != left_out:
+            height = y if heights else 0.0
+            wide = np.sqrt(far**2 - height**2)
+            low, high = max(low, x - wide), min(high, x + wide)
+            holes += [(x, np.sqrt(max(near**2 - height**2, 0.0)))] if hole else []
+    for x, half in holes:
+        if half and x - half <= low < x + half:
+            low = x + half
+    return [float(low), float(high)]
 
 
 def full_turn_area(mine, how="ring") -> float:

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.patches import Polygon
 
 from ..geometry import unit_vector
-from ..planar_arms import ARMS, JOINTS, describe, places
+from ..planar_arms import JOINTS, describe, places, walk_of
 from .planar import mark_frame_2d, mark_target
 from .strokes import (
     draw_angle,
@@ -29,7 +29,7 @@ def draw_walked_arm(arm, values, ax=None, *, letters=True, fill=POSTURE_SHADES[0
     Parameters
     ----------
     arm : str
-        A name of `dhkit.planar_arms.ARMS`.
+        A name of `dhkit.planar_arms.ARMS` or ``SLIDING``.
     values : dict
         Numbers for its letters, in metres and radians.
     letters : bool
@@ -45,7 +45,7 @@ def draw_walked_arm(arm, values, ax=None, *, letters=True, fill=POSTURE_SHADES[0
     show_plane(ax)
     at, heading = places(arm, values)
     total = np.linalg.norm(np.diff(at, axis=0), axis=1).sum()
-    for i, (do, letter) in enumerate(ARMS[arm]):
+    for i, (do, letter) in enumerate(walk_of(arm)):
         start, end = at[i], at[i + 1]
         if do == "turn":
             draw_joint(ax, start)

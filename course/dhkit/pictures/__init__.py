@@ -73,6 +73,7 @@ from .tables import (
 from .transforms import show_classic_matrix, show_own_dhm, show_parameters, show_point, show_walk, show_way_to_part
 from .workspace import (
     show_area,
+    show_base,
     show_cloud,
     show_count,
     show_pallet,
@@ -86,6 +87,7 @@ __all__ = [
     "show_3rrr_postures",
     "show_all_postures",
     "show_area",
+    "show_base",
     "show_belt",
     "show_chain",
     "show_circles",

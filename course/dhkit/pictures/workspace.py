@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import sympy
 from matplotlib.colors import ListedColormap
-from matplotlib.patches import Rectangle
+from matplotlib.patches import Polygon, Rectangle
 
 from ..drawing.elbow_workspace import draw_section
 from ..drawing.inputs import as_numbers
@@ -14,7 +14,8 @@ from ..drawing.planar import mark_target
 from ..drawing.planar_2r import hand_distance
 from ..drawing.strokes import show_plane
 from ..drawing.style import AXIS_COLOURS, INK, SOFT
-from ..drawing.workspace import COUNT_SHADES, draw_clouds, draw_sheets, mark_edges
+from ..drawing.workspace import COUNT_SHADES, draw_clouds, mark_edges
+from ..planar_arms import stations
 from .own_result import called, numbers, own_result
 
 INDEXED = ("t1i", "t1j", "t2i", "t2j", "L1", "L2")
@@ -47,21 +48,34 @@ def show_point_function(point, lengths, limits, count=24):
 
 
 @own_result
-def show_cloud(points, lengths, limits):
-    """Show a cloud of points over the workspace of the arm.
+def show_cloud(points, outline):
+    """Show a cloud of points over the workspace of an arm.
 
     Parameters
     ----------
     points : array-like, shape (k, 2), in metres
-    lengths : (float, float), in metres
-    limits : rows (min, max) of t1 and t2, in radians
+    outline : array-like, shape (n, 2), in metres
 
     Returns
     -------
     matplotlib Axes
     """
     points = as_numbers(points, "cloud", (None, 2))
-    return draw_clouds({f"your {len(points)} points": points}, lengths, limits)
+    ax = _with_outline(outline)
+    ax.plot(*points.T, ".", ms=2, color=INK, zorder=3)
+    ax.set_title(f"your {len(points)} points", fontsize=10)
+    return ax
+
+
+def _with_outline(outline):
+    """A plane with the workspace in grey."""
+    ax = plt.subplots(figsize=(6.4, 4.6))[1]
+    show_plane(ax)
+    ax.add_patch(Polygon(outline, facecolor="#e3e3e3", edgecolor=INK, lw=1.0, zorder=1))
+    ax.plot(0, 0, "o", color=INK)
+    ax.autoscale_view()
+    ax.margins(0.06)
+    return ax
 
 
 @own_result
@@ -97,14 +111,13 @@ def show_reach_range(reach, lengths, ranges=((0.5, 2.4), (-1.2, 2.2), (1.8, 4.4)
 
 
 @own_result
-def show_area(area, lengths, limits):
+def show_area(area, outline):
     """Show a square of the area of an answer beside the workspace, at the same scale.
 
     Parameters
     ----------
     area : number, in square metres
-    lengths : (float, float), in metres
-    limits : rows (min, max) of t1 and t2, in radians
+    outline : array-like, shape (n, 2), in metres
 
     Returns
     -------
@@ -113,15 +126,45 @@ def show_area(area, lengths, limits):
     area = float(numbers(area, "area", (), {}))
     if area <= 0:
         raise ValueError(f"an area is positive, found {area:.4g}")
-    side = np.sqrt(area)
-    if side > 20 * sum(lengths):
+    side, size = np.sqrt(area), float(np.ptp(outline, axis=0).max())
+    if side > 20 * size:
         raise ValueError(f"{area:.4g} square metres: a square of {side:.3g} m, far larger than the arm reaches")
-    ax = draw_sheets(lengths, limits, plt.subplots(figsize=(7.2, 4.4))[1])
-    left = 1.25 * sum(lengths)
-    ax.add_patch(Rectangle((left, -side / 2), side, side, facecolor="#efe3c4", edgecolor=INK, lw=1.4, zorder=2))
-    ax.text(left + side / 2, 0, f"your {area:.3f} m²", ha="center", va="center", zorder=3)
+    ax = _with_outline(outline)
+    left, middle = float(np.max(outline, axis=0)[0]) + 0.15 * size, float(np.mean(outline, axis=0)[1])
+    ax.add_patch(Rectangle((left, middle - side / 2), side, side, facecolor="#efe3c4", edgecolor=INK, lw=1.4, zorder=2))
+    ax.text(left, middle + side / 2, f"your {area:.3f} m²", va="bottom", zorder=3)
     ax.autoscale_view()
-    ax.margins(0.06)
+    return ax
+
+
+@own_result
+def show_base(places, mine):
+    """Show an RR arm's base at two places on its wall, what it reaches from there, and the stations.
+
+    Parameters
+    ----------
+    places : 2 numbers [leftmost, rightmost], in metres
+    mine : mapping
+        L1, L2 in metres; t2_min, t2_max in degrees.
+
+    Returns
+    -------
+    matplotlib Axes
+        Every station belongs between both circles of both places, and at each place one of them on a circle.
+    """
+    found = numbers(places, "base", (2,), {})
+    ax = plt.subplots(figsize=(6.4, 4.6))[1]
+    show_plane(ax)
+    half_turn = np.linspace(0, np.pi, 120)
+    for x, dashes, colour in zip(found, ((0, (5, 2)), "-"), (AXIS_COLOURS["z"], AXIS_COLOURS["x"])):
+        for stop in ("t2_min", "t2_max"):
+            radius = abs(mine["L1"] + mine["L2"] * np.exp(1j * np.radians(mine[stop])))
+            ax.plot(x + radius * np.cos(half_turn), radius * np.sin(half_turn), color=colour, lw=1.4, ls=dashes)
+        ax.plot(x, 0, "s", color=colour, ms=7, zorder=4)
+    ax.axhline(0, color=INK, lw=1.2)
+    for name, (x, y) in stations(mine).items():
+        ax.plot(x, y, "o", color=INK, zorder=4)
+        ax.annotate(f"${name}$", (x, y), xytext=(6, 5), textcoords="offset points")
     return ax
 
 

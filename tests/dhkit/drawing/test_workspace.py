@@ -11,11 +11,15 @@ import sympy
 from dhkit import drawing as ws
 from dhkit.geometry import planar_joints
 from dhkit.pictures import workspace as pictures
+from dhkit.planar_arms import sliding_outline
+from dhkit.variants import numbers
 
 LENGTHS = (0.5, 0.3)
 ONE_WAY = np.radians([(-60, 120), (20, 150)])
 BOTH_WAYS = np.radians([(-60, 120), (-60, 150)])
 SECTION = np.radians([(-20, 100), (-140, -30)])
+OWN = numbers("workspace", "ada")
+OUTLINE = sliding_outline(OWN)
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -102,9 +106,10 @@ POINT = [L1 * sympy.cos(t1i) + L2 * sympy.cos(t1i + t2j), L1 * sympy.sin(t1i) + 
 VALUES = {"t2": 1.2, "t3": -1.0, "L1": 0.5, "L2": 0.3}
 PICTURES = {
     "point": (pictures.show_point_function, (LENGTHS, ONE_WAY), POINT),
-    "cloud": (pictures.show_cloud, (LENGTHS, ONE_WAY), ws.grid_points(LENGTHS, [0.1, 0.5], [0.7, 0.9]).reshape(-1, 2)),
+    "cloud": (pictures.show_cloud, (OUTLINE,), OUTLINE[:9]),
     "reach": (pictures.show_reach_range, (LENGTHS,), lambda *args: [0.2, 0.8]),
-    "area": (pictures.show_area, (LENGTHS, ONE_WAY), 0.85),
+    "base": (pictures.show_base, (OWN,), [0.1, 0.2]),
+    "area": (pictures.show_area, (OUTLINE,), 0.85),
     "count": (pictures.show_count, (LENGTHS, BOTH_WAYS), lambda *args: 1),
     "section": (pictures.show_section, (VALUES,), [L1 * sympy.cos(t2), L1 * sympy.sin(t2)]),
 }
@@ -136,4 +141,4 @@ def test_counts_that_no_arm_has_are_crossed():
 
 
 def test_an_area_in_degrees_is_too_large_for_a_picture():
-    assert "far larger than the arm reaches" in words(pictures.show_area(850.0, LENGTHS, ONE_WAY))
+    assert "far larger than the arm reaches" in words(pictures.show_area(850.0, OUTLINE))
