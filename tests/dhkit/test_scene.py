@@ -177,7 +177,7 @@ def test_a_students_function_is_asked_for_all_postures(watched):
         (lambda pose: [], "no posture for this place"),
         (lambda pose: ..., "nothing comes back yet"),
         (lambda pose: [[1, 2, 3]], "a posture of this robot is 2 finite numbers"),
-        (lambda pose: [[1, float("nan")]], "2 finite numbers"),
+        (lambda pose: [(np.float64(1), np.float64("nan"))], "2 finite numbers (θ₁, θ₂), found [[1.0, nan]]"),
         (lambda pose: 1 / 0, "division by zero"),
         (lambda pose: pose["x"], "indices"),
     ],
@@ -188,6 +188,7 @@ def test_what_goes_wrong_in_a_students_function_is_told_in_words(watched, functi
     scene._widget.set_state({"asked": {"number": 1, "q": [0.2, 0.5]}})
     assert scene._widget.answer["ghosts"] == []
     assert words in scene._widget.answer["words"]
+    assert scene._widget.answer["words"].count("inverse:") == 1
 
 
 def test_a_path_does_not_leap_by_full_turns():

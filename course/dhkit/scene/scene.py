@@ -231,7 +231,8 @@ class Scene(Live):
                 return [], "inverse: nothing comes back yet"
             rows = self._rows(found, "inverse", MOST_GHOSTS)
         except Exception as error:  # whatever may go wrong in it
-            return [], f"inverse: {error or type(error).__name__}"[:_LONGEST]
+            words = str(error) or type(error).__name__
+            return [], f"inverse: {words.removeprefix('inverse: ')}"[:_LONGEST]
         if not rows:
             return [], "inverse: no posture for this place"
         away = np.linalg.norm(self.arm.hands(np.array(rows))[:, :3, 3] - pose[:3, 3], axis=1)
@@ -257,7 +258,7 @@ class Scene(Live):
             found = as_rows(flat.reshape(1, -1) if flat.size == len(joints) else flat, what, len(joints))
         except (TypeError, ValueError):
             names = ", ".join(joint.name for joint in joints)
-            text = str(rows).replace("\n", " ")
+            text = str(_plain(rows)).replace("\n", " ")
             raise ValueError(
                 f"{what}: a posture of this robot is {len(joints)} finite numbers ({names}), found {text[:60]}"
             ) from None
@@ -272,6 +273,15 @@ def _points(cloud: Any) -> np.ndarray:
         return np.empty((0, 3), dtype=np.float32)
     points = as_numbers(cloud, "cloud", (None, 3))
     return points[:: -(-len(points) // MOST_IN_CLOUD) or 1].astype("<f4")
+
+
+def _plain(rows: Any) -> Any:
+    """Rows of numbers as Python writes them, not as NumPy does; anything else as it is."""
+    try:
+        found = np.array(rows)
+    except Exception:  # whatever the student's function gave
+        return rows
+    return found.tolist() if found.dtype.kind in "biuf" else rows
 
 
 def _shown(frames: Sequence[int] | None, count: int) -> list[int]:

@@ -59,6 +59,11 @@ export class Solids extends THREE.Group {
     }
   }
 
+  /** Show only the first so many of each kind. */
+  reveal(count) {
+    for (const mesh of this.meshes.values()) mesh.count = count;
+  }
+
   #grow(kind, count) {
     const old = this.meshes.get(kind);
     const mesh = new THREE.InstancedMesh(old?.geometry ?? GEOMETRIES[kind](), this.material, Math.ceil(1.5 * count));

@@ -42,6 +42,7 @@ export class View {
     this.lit = null;
     this.ghosts = [];
     this.trace = { points: [], done: 0 };
+    this.pieces = [];
     this.trail = [];
     this.step = null; // {row, share}: the moves of a row under way
     this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true, stencil: true, preserveDrawingBuffer: true });
@@ -61,7 +62,7 @@ export class View {
     this.axes = this.#add(new Solids(new THREE.MeshBasicMaterial()));
     this.lines = new Solids(new THREE.MeshBasicMaterial());
     this.front.add(this.lines);
-    this.drawn = this.#add(new Solids(new THREE.MeshBasicMaterial()));
+    [this.ahead, this.drawn, this.tip] = [0, 1, 2].map(() => this.#add(new Solids(new THREE.MeshBasicMaterial()))); // of the path
     this.trailed = this.#add(new Solids(new THREE.MeshBasicMaterial()));
     this.speeds = this.#add(new Solids(new THREE.MeshStandardMaterial({ transparent: true, opacity: 0.4, roughness: 0.8, depthWrite: false })));
     this.speeds.renderOrder = 4;
@@ -134,6 +135,7 @@ export class View {
     if (this.cloud) this.#paintCloud();
     this.setGhosts(this.ghosts.map((ghost) => ghost.q));
     this.#drawTrail();
+    this.#layTrace();
     this.#drawTrace();
     this.update();
   }
@@ -364,24 +366,28 @@ export class View {
 
   /** Points of the hand's path, and the share of it, from 0 to 1, that has been drawn. */
   setTrace(points, done) {
+    const same = points === this.trace.points;
     this.trace = { points, done };
+    if (!same) this.#layTrace();
     this.#drawTrace();
     this.draw();
   }
 
+  /** All of the path at once, thin, and thick for what will have been drawn: at each step only more of it is revealed. */
+  #layTrace() {
+    const { points } = this.trace, width = 0.006 * this.picture.unit;
+    this.pieces = points.slice(1).flatMap((end, i) => (norm(subtract(end, points[i])) < 1e-9 ? [] : [{ start: points[i], end, from: i }]));
+    this.ahead.draw(this.pieces.map(({ start, end }) => tube(start, end, 0.4 * width, this.colours.ahead)));
+    this.drawn.draw(this.pieces.flatMap(({ start, end }) => [tube(start, end, width, this.colours.trace), ball(end, width, this.colours.trace)]));
+  }
+
   #drawTrace() {
-    const { points, done } = this.trace, width = 0.006 * this.picture.unit;
-    const here = done * (points.length - 1);
-    const solids = points.slice(1).flatMap((end, i) => {
-      const start = points[i], share = here - i;
-      if (norm(subtract(end, start)) < 1e-9) return [];
-      const middle = add(start, subtract(end, start), Math.min(Math.max(share, 0), 1));
-      return [
-        ...(share > 0 ? [tube(start, middle, width, this.colours.trace), ball(middle, width, this.colours.trace)] : []),
-        ...(share < 1 ? [tube(middle, end, 0.4 * width, this.colours.ahead)] : []),
-      ];
-    });
-    this.drawn.draw(solids);
+    const { points, done } = this.trace, width = 0.006 * this.picture.unit, here = done * (points.length - 1);
+    const next = this.pieces.findIndex(({ from }) => from + 1 > here), { start, end, from } = this.pieces[next] ?? {};
+    this.drawn.reveal(next < 0 ? this.pieces.length : next);
+    if (next < 0 || from >= here) return this.tip.draw([]);
+    const middle = add(start, subtract(end, start), here - from);
+    this.tip.draw([tube(start, middle, width, this.colours.trace), ball(middle, width, this.colours.trace)]);
   }
 
   /** Build what depends on the posture, and draw. */
@@ -453,7 +459,7 @@ export class View {
   dispose() {
     cancelAnimationFrame(this.pending);
     this.controls.dispose();
-    for (const part of [this.arm, this.axes, this.lines, this.drawn, this.trailed, this.speeds, ...this.ghosts.flatMap((ghost) => [ghost.solids, ghost.depth])]) part.dispose();
+    for (const part of [this.arm, this.axes, this.lines, this.ahead, this.drawn, this.tip, this.trailed, this.speeds, ...this.ghosts.flatMap((ghost) => [ghost.solids, ghost.depth])]) part.dispose();
     this.grid?.dispose();
     this.cloud?.geometry.dispose();
     this.cloud?.material.dispose();
