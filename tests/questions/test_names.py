@@ -17,10 +17,6 @@ def at(table, row, column, value):
 
 # What was handed in, which note it must not get again, and words that must be said.
 ONCE_MISNAMED = {
-    **{
-        f"singular {x}": ("parallel_robots.singular", lambda _, x=x: x, "joint_for_p+one_leg_upright", "")
-        for x in (0, 0.5, 0.7, 0.8, 1)
-    },
     "sign in Rot_y": (
         "orientation.rpy_entries",
         lambda found: [sympy.sympify(entry).subs(theta, -theta) for entry in found],

@@ -1,4 +1,4 @@
-"""Planar parallel robots (EPFL slides): the 3-RPR both ways, its singular poses, the 3-RRR as counter-example."""
+"""Planar parallel robots: of the EPFL slides the 3-RPR both ways; a 3-RRR with stops; a machine that the id chooses."""
 
 from __future__ import annotations
 
@@ -6,21 +6,15 @@ import numpy as np
 import sympy
 
 from autograder.judge import Question, mistake
-from autograder.judge.misconceptions import degrees, option, symbol_negated
-from autograder.judge.steps import in_each_row, negate, substitute
+from autograder.judge.misconceptions import degrees, option
+from autograder.judge.steps import substitute
 from dhkit.geometry import wrap
 
+from .machine import NONE, ONE, crossings, draw_reached, draw_ways, drives, failing, rates, singular
 from .model import (
-    BASE,
     GAP_SQUARED,
-    JOINT,
-    MEETING_X,
-    MOVED_BEFORE_TURNED,
-    PLATFORM,
-    SINGULAR_X,
     count_elbows_from_x0,
     draw_poses,
-    jacobian,
     leg_lengths,
     list_modes,
     list_postures,
@@ -30,10 +24,6 @@ from .model import (
     posture_residual,
     q1,
     q2,
-    u,
-    v,
-    x,
-    y,
 )
 
 BACKWARDS = (
@@ -43,20 +33,6 @@ BACKWARDS = (
 NOT_TURNED = "**The platform is not turned.** The points b are given along the axes of the platform: they turn with it when phi changes."
 
 QUESTIONS = (
-    Question(
-        "parallel_robots.joint",
-        reference=JOINT,
-        mistakes=(
-            symbol_negated(phi, "turned_backwards", BACKWARDS, 0.5),
-            mistake("platform_not_turned", 0.3, NOT_TURNED, lambda _: [x + u, y + v]),
-            mistake(
-                "moved_before_turned",
-                0.4,
-                "**P is turned, too.** The platform turns about P, so P itself stays: which vector does the rotation act on?",
-                lambda _: MOVED_BEFORE_TURNED,
-            ),
-        ),
-    ),
     Question(
         "parallel_robots.leg_lengths",
         reference=leg_lengths,
@@ -167,79 +143,21 @@ QUESTIONS = (
         residual=mode_residual,
     ),
     Question(
-        "parallel_robots.jacobian",
-        reference=jacobian,
-        mistakes=(
-            mistake(
-                "legs_not_unit_vectors",
-                0.6,
-                "**The rows are not divided by the length of their leg.** u is a unit vector. (The determinant vanishes at the same "
-                "poses, but its rows are no rates of lengths.)",
-                wrong={"unit": False},
-            ),
-            mistake(
-                "arms_from_the_origin",
-                0.5,
-                "**The arms are counted from the origin of the base.** The platform turns about P: r goes from P to the joint.",
-                wrong={"centre": "origin"},
-            ),
-            mistake(
-                "sign_of_turning",
-                0.6,
-                "**The third column has the wrong sign.** r x u, not u x r: turn the platform a little in the positive sense and see "
-                "whether the leg gets longer.",
-                in_each_row(negate(2)),
-            ),
-            mistake(
-                "arms_not_turned",
-                0.4,
-                "**The arms are not turned with the platform.** b is given along the axes of the platform, u along those of the base.",
-                wrong={"turned": False},
-            ),
-        ),
-        probe=draw_poses,
-    ),
-    Question(
-        "parallel_robots.singular",
-        reference=SINGULAR_X,
-        mistakes=(
-            mistake(
-                "meeting_point_for_p",
-                0.5,
-                "**This is where the leg lines meet.** The question asks for the platform's own P in that pose.",
-                lambda _: MEETING_X,
-            ),
-            mistake(
-                "joint_for_p",
-                0.5,
-                "**This is x of a joint of the platform.** P is another point of it.",
-                *(lambda px, bx=bx: px + bx for bx, _ in PLATFORM),
-            ),
-            mistake(
-                "one_leg_upright",
-                0.1,
-                "**Here one leg stands upright.** It then does not notice a small shift along x0, but the other two do: all three "
-                "must be blind to one and the same motion.",
-                *(lambda _, upright=a[0] - b[0]: upright for a, b in zip(BASE, PLATFORM)),
-            ),
-        ),
-    ),
-    Question(
         "parallel_robots.postures",
         reference=list_postures,
+        depends=("x", "y", "phi", "stop"),
         mistakes=(
             mistake(
-                "one_posture_only",
-                0.2,
-                "**This is one posture; there are more.** Every leg has two elbows to choose from.",
-                *(lambda postures, k=k: postures[k : k + 1] for k in range(8)),
+                "stops_ignored",
+                0.5,
+                "**The motors have stops.** You list every way to hold the platform: which of them does each motor reach?",
+                wrong={"stops": False},
             ),
             mistake(
-                "same_elbow_in_all_legs",
+                "one_posture_only",
                 0.4,
-                "**The legs need not bend to the same side.** The choice of one elbow leaves the other two free: in how many ways can "
-                "they be combined?",
-                lambda postures: [postures[0], postures[-1]],
+                "**This is one posture; there are more.** Every leg has two elbows to choose from, and the stops forbid some of them only.",
+                *(lambda postures, k=k: postures[k : k + 1] for k in range(2)),
             ),
             mistake(
                 "elbows_from_x0",
@@ -251,6 +169,157 @@ QUESTIONS = (
         ),
         angles=tuple(range(6)),
         residual=posture_residual,
+    ),
+    Question(
+        "parallel_robots.drives",
+        reference=drives,
+        mistakes=(
+            mistake(
+                "slider_on_the_other_side",
+                0.6,
+                "**A slider is on the wrong side of its joint.** Pythagoras leaves two places for it: which of them does your table say is built?",
+                wrong={"other": "rail"},
+            ),
+            mistake(
+                "pin_on_the_other_side",
+                0.6,
+                "**A crank is bent the wrong way.** Look from A along the way to B: on which side is the pin to be, and on which is yours?",
+                wrong={"other": "crank"},
+            ),
+            mistake(
+                "other_working_mode",
+                0.4,
+                "**Your legs are built another way.** They reach the platform, but sliders and pins are not where the table has them.",
+                wrong={"other": "both"},
+            ),
+            mistake("turned_backwards", 0.5, BACKWARDS, wrong={"turn": -1}),
+            mistake("platform_not_turned", 0.3, NOT_TURNED, wrong={"turn": 0}),
+            mistake(
+                "rod_left_out",
+                0.3,
+                "**The rods are missing.** Your sliders stand beside their joints and your cranks point at them: the length of the rod must come in.",
+                wrong={"halves": False},
+            ),
+            mistake(
+                "crank_in_degrees",
+                0.6,
+                "**The angle of a crank is in degrees.** The question asks for radians; values of rails and rams are lengths.",
+                wrong={"unit": 180 / np.pi},
+                turn=360,
+            ),
+        ),
+        angles=(0, 1, 2),  # of a length nobody gives 2 pi metres more
+        probe=draw_reached,
+    ),
+    Question(
+        "parallel_robots.rates",
+        reference=rates,
+        mistakes=(
+            mistake(
+                "rods_alone",
+                0.5,
+                "**These are speeds of the joints B along their rods.** A rod passes on only the part of the motion that lies along it, at its "
+                "other end, too: how fast does that end move along the rod when the drive runs at 1?",
+                wrong={"gain": ""},
+            ),
+            mistake(
+                "crank_of_one_metre",
+                0.6,
+                "**The length of the crank is missing.** At a rate of 1 rad/s its pin moves as fast as the crank is long.",
+                wrong={"gain": "angle"},
+            ),
+            mistake(
+                "inverted",
+                0.4,
+                "**This is the inverse matrix.** It tells how the platform moves when the drives run; the question goes the other way.",
+                wrong={"inverted": True},
+            ),
+            mistake(
+                "sign_of_turning",
+                0.6,
+                "**The third column has the wrong sign.** Turn the platform a little in the positive sense: does B move along its rod, or against it?",
+                wrong={"sign": -1},
+            ),
+            mistake(
+                "arms_from_the_origin",
+                0.5,
+                "**The arms are counted from the origin of the base.** The platform turns about P.",
+                wrong={"centre": "origin"},
+            ),
+        ),
+        probe=draw_reached,
+    ),
+    Question(
+        "parallel_robots.singular",
+        reference=singular,
+        depends=("machine",),
+        mistakes=(
+            mistake(
+                "meeting_point_for_p",
+                0.5,
+                "**This is where the lines of the rods meet.** The question asks for the platform's own P in that pose.",
+                wrong={"point": "meeting"},
+            ),
+            mistake(
+                "joint_for_p",
+                0.5,
+                "**This is x of a joint of the platform.** P is another point of it.",
+                wrong=[{"point": point} for point in "123"],
+            ),
+            mistake(
+                "lines_from_the_anchors",
+                0.3,
+                "**Here the lines from the anchors meet.** What holds the platform is the rod alone: with its drive locked, which way does it point?",
+                wrong={"anchors": True},
+            ),
+        ),
+    ),
+    Question(
+        "parallel_robots.faults",
+        reference=failing,
+        places=False,
+        depends=("order",),
+        mistakes=(
+            mistake(
+                "safe_way_blamed",
+                0.6,
+                "**One of these ways passes through no singular pose, and the function says so.** Follow the determinant along it.",
+                wrong=[{"instead": place} for place in NONE],
+            ),
+            mistake(
+                "one_crossing_blamed",
+                0.6,
+                "**Of one of these ways the function is right: its ends have different signs.** How often does the sign change between them?",
+                wrong={"instead": ONE},
+            ),
+        ),
+    ),
+    Question(
+        "parallel_robots.crossings",
+        reference=crossings,
+        depends=("machine",),
+        mistakes=(
+            mistake(
+                "as_it_was_given",
+                0.0,
+                "**This is the function as it was given.** It looks at the ends of a way; what happens in between?",
+                wrong={"looked_at": 2},
+            ),
+            mistake(
+                "once_at_most",
+                0.4,
+                "**Your function says that there is a singular pose, not how many.** On some ways the sign changes, and changes back.",
+                wrong={"most": 1},
+            ),
+            mistake(
+                "platform_not_turned",
+                0.3,
+                "**The platform keeps its first angle on your way.** x, y and phi all run from start to end.",
+                wrong={"turning": False},
+            ),
+            mistake("no_crossing_at_all", 0.0, "**Your function finds no singular pose on any way.**", lambda _: 0),
+        ),
+        probe=draw_ways,
     ),
     Question(
         "parallel_robots.slogan",

@@ -1,28 +1,28 @@
-"""Planar parallel robots: the 3-RPR both ways, its Jacobian and a singular pose, the 3-RRR."""
+"""Planar parallel robots: the 3-RPR both ways, and a 3-RRR whose motors have stops."""
 
 from __future__ import annotations
 
 import numpy as np
 import sympy
 
-from dhkit.geometry import rotation_2d, unit_vector
+from dhkit.geometry import rotation_2d, unit_vector, wrap
 from dhm.parallel import ThreeRPR, ThreeRRR
 
-x, y, phi, u, v, q1, q2, c, L = sympy.symbols("x y phi u v q1 q2 c L")
+q1, q2, phi, c, L = sympy.symbols("q1 q2 phi c L")
 
 BASE = ((0.0, 0.0), (1.0, 0.0), (0.3, 0.7))
 PLATFORM = ((-0.3, -0.3), (0.4, -0.3), (0.2, 0.4))
-BARS = (0.4, 0.35)
 ROBOT = ThreeRPR(BASE, PLATFORM)
-TWO_BARS = ThreeRRR(BASE, PLATFORM, BARS[:1] * 3, BARS[1:] * 3)
+
+STAND = ((0.0, 0.0), (1.0, 0.05), (0.45, 0.95))
+PLATE = ((-0.2, -0.25), (0.25, -0.1), (0.05, 0.2))
+BARS = ((0.40, 0.45), (0.45, 0.45), (0.45, 0.55))
+"""Of each leg the driven bar and the outer one."""
+TWO_BARS = ThreeRRR(STAND, PLATE, *zip(*BARS))
 
 TURN = sympy.Matrix([[sympy.cos(phi), -sympy.sin(phi)], [sympy.sin(phi), sympy.cos(phi)]])
-JOINT = list(sympy.Matrix([x, y]) + TURN * sympy.Matrix([u, v]))
 GAP = TURN * sympy.Matrix([c, 0]) - sympy.Matrix([L, 0])  # d of the platform side c and the base side L
 GAP_SQUARED = sympy.simplify(GAP.dot(GAP))
-MOVED_BEFORE_TURNED = list(TURN * sympy.Matrix([x + u, y + v]))
-
-HEIGHT = 0.7  # of P in the question about the singular pose, phi = 0
 
 
 def list_modes(mine) -> list[list[float]]:
@@ -30,9 +30,11 @@ def list_modes(mine) -> list[list[float]]:
     return ROBOT.forward(own_lengths(mine)).listed().tolist()
 
 
-def list_postures(mine) -> list[list[float]]:
-    """All joint values (6,) of the 3-RRR at the student's pose, drive and elbow of each leg in turn."""
-    return TWO_BARS.inverse(own_pose(mine)).listed().tolist()
+def list_postures(mine, *, stops=True) -> list[list[float]]:
+    """The joint values (6,) of the 3-RRR at the student's pose, drive and elbow of each leg in turn, between the stops or all."""
+    found = TWO_BARS.inverse(own_pose(mine)).listed()
+    allowed = (np.abs(wrap(found[:, ::2])) <= np.radians(mine.stop)).all(axis=1)
+    return found[allowed | (not stops)].tolist()
 
 
 def own_lengths(mine) -> list[float]:
@@ -57,45 +59,6 @@ def leg_lengths(x, y, phi, *, turn=1, anchored=True) -> list[float]:
     return np.linalg.norm(legs if anchored else legs + BASE, axis=1).tolist()
 
 
-def jacobian(x, y, phi, *, unit=True, turned=True, centre="P") -> list[list[float]]:
-    """The Jacobian of the leg lengths, (3, 3).
-
-    Not `unit`, its rows are not divided by the lengths. The arms may be left un-`turned`, or be counted from the
-    ``"origin"`` of the base.
-    """
-    rows = ROBOT.jacobian([x, y, phi])
-    ux, uy = rows[:, 0], rows[:, 1]
-    if not turned:
-        bx, by = np.transpose(PLATFORM)
-        rows[:, 2] = bx * uy - by * ux
-    if centre == "origin":
-        rows[:, 2] += x * uy - y * ux
-    return (rows if unit else rows * np.array(leg_lengths(x, y, phi))[:, None]).tolist()
-
-
-def find_singular_x() -> float:
-    """x of P for phi = 0, y = `HEIGHT`, between 0 and 1, by halving the interval."""
-    low, high = 0.0, 1.0
-    sign = np.sign(np.linalg.det(jacobian(low, HEIGHT, 0.0)))
-    for _ in range(60):
-        middle = (low + high) / 2
-        inside = np.sign(np.linalg.det(jacobian(middle, HEIGHT, 0.0))) == sign
-        low, high = (middle, high) if inside else (low, middle)
-    return low
-
-
-SINGULAR_X = find_singular_x()
-
-
-def find_meeting_x() -> float:
-    """x of the point where the leg lines of that pose meet."""
-    first, second = (np.subtract((SINGULAR_X, HEIGHT), a) + b for a, b in list(zip(BASE, PLATFORM))[:2])
-    along, _ = np.linalg.solve(np.column_stack([first, -second]), np.subtract(BASE[1], BASE[0]))
-    return float(along * first[0])
-
-
-MEETING_X = find_meeting_x()
-
 # ---------------------------------------------------------------- how far solutions are off
 
 
@@ -106,11 +69,14 @@ def mode_residual(q, mine) -> np.ndarray:
 
 
 def posture_residual(q, mine) -> np.ndarray:
-    """Largest distance from the end of a leg to its joint on the platform, (k,), for joint values (k, 6)."""
+    """How far joint values (k, 6) are off, (k,): from end of leg to joint of the platform, and beyond the stops."""
     drive, elbow = q[:, ::2], q[:, 1::2]
-    ends = np.add(BASE, BARS[0] * unit_vector(drive) + BARS[1] * unit_vector(drive + elbow))
+    driven, outer = np.transpose(BARS)[:, :, None]
+    ends = np.add(STAND, driven * unit_vector(drive) + outer * unit_vector(drive + elbow))
     px, py, turn = own_pose(mine)
-    return np.linalg.norm(ends - (px, py) - PLATFORM @ rotation_2d(turn).T, axis=-1).max(axis=1)
+    off = np.linalg.norm(ends - (px, py) - PLATE @ rotation_2d(turn).T, axis=-1).max(axis=1)
+    beyond = np.abs(wrap(drive)).max(axis=1) - np.radians(mine.stop)
+    return np.maximum(off, np.maximum(beyond, 0.0))
 
 
 # ---------------------------------------------------------------- wrong steps

@@ -14,6 +14,7 @@ from .elbow_workspace import draw_elbow_workspace, draw_section
 from .frames import draw_dh_parameters, draw_frames_3d, mark_frame, mark_path
 from .gimbal import draw_gimbal
 from .gripper import draw_gripper
+from .machines import draw_machine
 from .orientation import draw_atan2, draw_brick_turns, draw_bricks, draw_flip, draw_top, turn_in_steps
 from .parallel import draw_3rpr, draw_3rrr, draw_assembly_modes, draw_coupler_curve, draw_leg_lines, platform_points
 from .parameter_steps import draw_parameter_steps
@@ -96,6 +97,7 @@ __all__ = [
     "draw_joint_grid",
     "draw_joint_origins",
     "draw_leg_lines",
+    "draw_machine",
     "draw_marks_by_line",
     "draw_own_scara",
     "draw_parallel_axes",

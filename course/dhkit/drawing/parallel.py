@@ -282,7 +282,7 @@ def draw_coupler_curve(base, platform, lengths, modes=(), ax=None, *, view=None)
 
 
 @styled
-def draw_leg_lines(base, platform, poses, ax=None, *, labels=None, view=None):
+def draw_leg_lines(base, platform, poses, ax=None, *, labels=None, letters="q", view=None):
     """Draw a 3-RPR in several poses with its leg lines prolonged, and the points where two of them meet.
 
     Where the three lines meet in one point, the platform can begin to turn about it with its legs locked.
@@ -294,6 +294,8 @@ def draw_leg_lines(base, platform, poses, ax=None, *, labels=None, view=None):
         Rows x, y (metres), phi (radians).
     labels : sequence of k texts, optional
         Written below the pictures; by default the angle phi.
+    letters : str
+        What the legs are called, with their numbers; empty for no names.
     view : (x_min, x_max, y_min, y_max), in metres, optional
         What one picture shows; by default the robot in all poses, with room around it.
 
@@ -324,7 +326,8 @@ def draw_leg_lines(base, platform, poses, ax=None, *, labels=None, view=None):
             line = ax.plot(*ends.T, color=SOFT, lw=1.1, ls=CENTRE_LINE, zorder=2)[0]
             line.set_clip_path(window)
             aside = 0.045 * size.max() * np.array([-leg[1], leg[0]])
-            write(ax, (foot + joint) / 2 + aside + shift, f"$q_{i}$")
+            if letters:
+                write(ax, (foot + joint) / 2 + aside + shift, f"${letters}_{i}$")
         _robot(ax, base + shift, robots[k] + shift, width=6.5)
         for i in range(3):
             meeting = _meeting_point(base, robots[k], i, (i + 1) % 3)
@@ -351,8 +354,8 @@ def draw_3rrr(base, platform, bars, pose, solutions, ax=None, *, columns=4):
     Parameters
     ----------
     base, platform : array-like, shape (3, 2), in metres
-    bars : (float, float), in metres
-        Lengths of the driven bar and of the bar that carries the platform, the same in the three legs.
+    bars : (float, float), or three of them, in metres
+        Lengths of the driven bar and of the bar that carries the platform, the same in the three legs or for each leg.
     pose : array-like, shape (3,)
         x, y (metres), phi (radians).
     solutions : array-like, shape (k, 6), in radians
@@ -363,10 +366,12 @@ def draw_3rrr(base, platform, bars, pose, solutions, ax=None, *, columns=4):
     matplotlib Axes
     """
     base = as_numbers(base, "base", (3, 2))
-    bars = as_lengths(bars, "bars", (2,))
+    bars = np.broadcast_to(as_lengths(bars, "bars", (2,) if np.ndim(bars) < 2 else (3, 2)), (3, 2))
     solutions = as_rows(solutions, "solutions", 6)
     joints = platform_points(platform, pose)
-    chains = [[foot + planar_joints(bars, row[2 * i : 2 * i + 2]) for i, foot in enumerate(base)] for row in solutions]
+    chains = [
+        [foot + planar_joints(bars[i], row[2 * i : 2 * i + 2]) for i, foot in enumerate(base)] for row in solutions
+    ]
     labels = [f"{k}:  elbows {_signs(row[1::2])}" for k, row in enumerate(solutions, start=1)]
 
     def picture(k, ax, shift):

@@ -26,6 +26,7 @@ from .inverse_models import (
     show_repaired_row,
     show_shoulder,
 )
+from .machines import show_drives, show_rates, show_singular_machine, show_ways
 from .orientation import (
     show_display,
     show_drone,
@@ -37,14 +38,7 @@ from .orientation import (
     show_wrist,
     show_wrist_formulas,
 )
-from .parallel_robots import (
-    show_3rrr_postures,
-    show_leg_lengths,
-    show_modes,
-    show_platform_joint,
-    show_singular,
-    show_singular_poses,
-)
+from .parallel_robots import show_3rrr_postures, show_leg_lengths, show_modes
 from .parameters import (
     show_frame,
     show_gripper_at_shelf,
@@ -101,6 +95,7 @@ __all__ = [
     "show_dh_matrix",
     "show_display",
     "show_distances",
+    "show_drives",
     "show_drone",
     "show_end_effector",
     "show_extraction",
@@ -137,12 +132,12 @@ __all__ = [
     "show_parameters",
     "show_pen_tip",
     "show_planar",
-    "show_platform_joint",
     "show_point",
     "show_point_function",
     "show_points",
     "show_postures",
     "show_ranks",
+    "show_rates",
     "show_reach_range",
     "show_reached",
     "show_reading",
@@ -155,8 +150,7 @@ __all__ = [
     "show_section",
     "show_seen_from",
     "show_shoulder",
-    "show_singular",
-    "show_singular_poses",
+    "show_singular_machine",
     "show_table",
     "show_theta1",
     "show_tip",
@@ -166,6 +160,7 @@ __all__ = [
     "show_walk",
     "show_walked_postures",
     "show_way_to_part",
+    "show_ways",
     "show_wrist",
     "show_wrist_formulas",
     "show_x_axis",

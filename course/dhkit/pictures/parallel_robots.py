@@ -2,40 +2,13 @@
 
 from __future__ import annotations
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Circle
 
-from ..drawing.parallel import draw_3rpr, draw_3rrr, draw_assembly_modes, draw_leg_lines, platform_points
-from ..drawing.planar import mark_target
-from ..drawing.style import AXIS_COLOURS, HALO, INK, SOFT
+from ..drawing.parallel import draw_3rpr, draw_3rrr, draw_assembly_modes, platform_points
+from ..drawing.style import AXIS_COLOURS
 from . import live
 from .own_result import called, numbers, numbers_in_rows, own_result
-
-
-@own_result
-def show_platform_joint(answer, base, platform, values: dict[str, float], number: int = 2):
-    """Show a formula for a joint of the platform, over the robot in the pose given by `values`.
-
-    The cross belongs on the joint B_number.
-
-    Parameters
-    ----------
-    answer : 2 entries in x, y, phi, u, v
-    base, platform : array-like, shape (3, 2), in metres
-    values : dict
-        Numbers for x, y (metres) and phi (radians).
-    number : int
-        1, 2 or 3; the point b of this joint is put in for u, v.
-
-    Returns
-    -------
-    matplotlib Axes
-    """
-    point = dict(zip("uv", map(float, platform[number - 1])))
-    at = numbers(answer, "joint", (2,), values | point)
-    ax = draw_3rpr(base, platform, [values[name] for name in ("x", "y", "phi")])
-    return mark_target(ax, at, "your result")
 
 
 @own_result
@@ -93,62 +66,6 @@ def show_modes(modes, base, platform, lengths):
 
 
 @own_result
-def show_singular_poses(jacobian, base, platform, phi, view=(-0.6, 1.6, 0.35, 1.5)):
-    """Show where the determinant of a Jacobian changes its sign, for all positions of P at one angle of the platform.
-
-    Parameters
-    ----------
-    jacobian : function (x, y, phi) -> 3x3 numbers
-    base, platform : array-like, shape (3, 2), in metres
-    phi : float, in radians
-    view : (x_min, x_max, y_min, y_max), in metres
-
-    Returns
-    -------
-    matplotlib Axes
-    """
-    xs, ys = np.linspace(*view[:2], 41), np.linspace(*view[2:], 31)
-    grid = [[called(jacobian, float(x), float(y), float(phi)) for x in xs] for y in ys]
-    determinants = np.linalg.det([[numbers(matrix, "jacobian", (3, 3), {}) for matrix in row] for row in grid])
-    ax = plt.subplots(figsize=(5.6, 3.9))[1]
-    ax.set_aspect("equal")
-    signs = [-np.inf, 0, np.inf]
-    ax.contourf(xs, ys, determinants, signs, colors=["#f4f4f4", "#cfcfcf"], zorder=0)
-    if determinants.min() < 0 < determinants.max():
-        ax.contour(xs, ys, determinants, [0], colors=INK, linewidths=1.8, zorder=2)
-    for sign, word in ((determinants > 0, "det > 0"), (determinants < 0, "det < 0")):
-        if sign.any():
-            row, column = np.argwhere(sign).mean(axis=0).astype(int)
-            ax.text(xs[column], ys[row], word, ha="center", va="center", path_effects=HALO, color=INK)
-    ax.plot(*np.transpose(base), "o", ms=6, mfc="white", mec=SOFT, mew=1.4, ls="none", clip_on=True)
-    ax.set(xlim=view[:2], ylim=view[2:], xlabel="x of P (m)", ylabel="y of P (m)")
-    ax.set_title(
-        "singular on the line" if determinants.min() < 0 < determinants.max() else "the sign never changes here"
-    )
-    return ax
-
-
-@own_result
-def show_singular(x, base, platform, y, phi=0.0):
-    """Show the leg lines of the pose (x, y, phi): in a singular pose they meet in one point.
-
-    Parameters
-    ----------
-    x : number, in metres
-    base, platform : array-like, shape (3, 2), in metres
-    y, phi : float, in metres and radians
-
-    Returns
-    -------
-    matplotlib Axes
-    """
-    at = float(numbers(x, "singular", (), {}))
-    return draw_leg_lines(
-        base, platform, [(at, y, phi)], labels=[f"x = {at:.3f} m, y = {y:g} m"], view=(-0.6, 2.0, -0.3, 1.9)
-    )
-
-
-@own_result
 def show_3rrr_postures(postures, base, platform, bars, pose):
     """Show the legs of a 3-RRR in each given posture: the outer bars belong on the corners of the platform.
 
@@ -156,7 +73,7 @@ def show_3rrr_postures(postures, base, platform, bars, pose):
     ----------
     postures : rows (t1, e1, t2, e2, t3, e3), in radians
     base, platform : array-like, shape (3, 2), in metres
-    bars : (float, float), in metres
+    bars : (float, float), or three of them, in metres
     pose : (float, float, float)
         x, y (metres), phi (radians).
 

@@ -7,7 +7,6 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from sympy import cos, sin, symbols
 
 from dhkit.drawing import parallel
 from dhkit.pictures import parallel_robots as pictures
@@ -113,22 +112,14 @@ def test_bad_input_is_refused_in_words(draw, message):
 # ---------------------------------------------------------------- pictures of a student's result
 
 
-def jacobian(x, y, phi):
-    return ROBOT.jacobian([x, y, phi])
-
-
-x, y, phi, u, v = symbols("x y phi u v")
 SHOWN = {
-    "joint": (
-        pictures.show_platform_joint,
-        [x + u * cos(phi) - v * sin(phi), y + u * sin(phi) + v * cos(phi)],
-        ({"x": 0.5, "y": 0.6, "phi": 0.3},),
-    ),
     "leg_lengths": (pictures.show_leg_lengths, lambda *pose: ROBOT.inverse(pose), ((0.5, 0.6, 0.3),)),
     "modes": (pictures.show_modes, ROBOT.forward(SIX).listed(), (SIX,)),
-    "jacobian": (pictures.show_singular_poses, jacobian, (0.0,)),
-    "singular": (pictures.show_singular, 0.5, (0.7,)),
-    "postures": (pictures.show_3rrr_postures, [[0.1] * 6] * 2, ((0.4, 0.4), (0.5, 0.45, 0.2))),
+    "postures": (
+        pictures.show_3rrr_postures,
+        [[0.1] * 6] * 2,
+        ([(0.4, 0.4), (0.4, 0.3), (0.5, 0.4)], (0.5, 0.45, 0.2)),
+    ),
 }
 
 
@@ -149,15 +140,6 @@ def test_answers_are_drawn_and_blanks_say_so(name):
     assert "cannot be drawn" in texts(shown(name, "seven"))[0]
 
 
-def test_the_cross_sits_where_the_formula_says():
-    def cross(answer):
-        return next(line.get_xydata()[0] for line in shown("joint", answer).lines if line.get_marker() == "+")
-
-    place = parallel.platform_points(PLATFORM, (0.5, 0.6, 0.3))[1]
-    assert cross(SHOWN["joint"][1]) == pytest.approx(place)
-    assert np.hypot(*(cross([x + u, y + v]) - place)) > 0.05
-
-
 def test_circles_have_the_radii_that_the_function_returns():
     circles = [
         patch for patch in shown("leg_lengths", lambda *pose: [0.3, 0.4, 0.5]).patches if hasattr(patch, "radius")
@@ -171,8 +153,3 @@ def test_a_wrong_mode_is_named_by_its_legs():
     wrong = texts(shown("modes", [right[0], right[1] + [0.1, 0, 0]]))
     assert "legs fit" in wrong[0] and "a leg is off by" in wrong[1]
     assert texts(shown("modes", [])) == ["no way to close the legs"]
-
-
-def test_the_line_of_singular_poses_needs_a_sign_change():
-    assert "singular on the line" in shown("jacobian", jacobian).get_title()
-    assert "never changes" in shown("jacobian", lambda *pose: np.eye(3)).get_title()
