@@ -156,7 +156,7 @@ QUESTIONS = (
             mistake(
                 "one_posture_only",
                 0.4,
-                "**This is one posture; there are more.** Every leg has two elbows to choose from, and the stops forbid some of them only.",
+                "**This is one configuration; there are more.** Every leg has two elbows to choose from, and the stops forbid some of them only.",
                 *(lambda postures, k=k: postures[k : k + 1] for k in range(2)),
             ),
             mistake(

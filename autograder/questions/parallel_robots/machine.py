@@ -11,7 +11,7 @@ BETWEEN = (0.2, 0.8)
 """x of P on the line on which the singular pose is looked for, in metres."""
 NEAR = (0.0, 0.9)
 """The same for the lines from the anchors, which meet elsewhere."""
-STEPS = 400
+STEPS = 100
 """Into which a way is cut to count singular poses."""
 
 

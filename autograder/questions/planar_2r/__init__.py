@@ -100,17 +100,17 @@ QUESTIONS = (
             option(
                 "A",
                 "formula_without_value",
-                "**That atan2(0, 0) has no value does not mean that the hand cannot be there.** Fold the arm: where does the hand lie?",
+                "**That atan2(0, 0) has no value does not mean that the end effector cannot be there.** Fold the arm: where does it lie?",
             ),
             option(
                 "B",
                 "folded_arm_only",
-                "**The elbow has one value, but the posture has two angles.** Fold the arm and turn joint 1: what does the hand do?",
+                "**The elbow has one value, but a configuration has two angles.** Fold the arm and turn joint 1: what does the end effector do?",
             ),
             option(
                 "C",
                 "two_as_everywhere_else",
-                "**Two postures are the rule, and this point is the exception.** What becomes of the two elbow angles when the arm is "
+                "**Two configurations are the rule, and this point is the exception.** What becomes of the two elbow angles when the arm is "
                 "folded, and of the determinant that decides about t1?",
             ),
         ),
