@@ -1,4 +1,4 @@
-"""Who restores, runs, judges and lays out: threads of this process for a few submissions, processes for a class.
+"""Who restores, runs, judges and lays out: threads of this process, or processes for a class and many cores.
 
 What is done to one submission is the same everywhere (`Desk`): nothing of it touches the gradebook, which the caller
 alone writes. Processes start as copies of one that has imported what they need, have a warm parent of kernels each (some
@@ -32,6 +32,8 @@ from .submission.execution import InDoubt
 
 FEW = 8
 """So many submissions are done before processes would have started."""
+ONE_SUFFICES = 3
+"""So many notebooks at a time this process can look after by itself: a third of the work on each is its own."""
 _END_SECONDS = 10.0
 
 
@@ -100,7 +102,7 @@ class Crew:
 
     def expect(self, count: int) -> None:
         """Get ready for so many submissions."""
-        if self._processes is None and count > FEW and self._hands > 1:
+        if self._processes is None and count > FEW and self._hands > ONE_SUFFICES:
             self._start()
 
     def _start(self) -> None:

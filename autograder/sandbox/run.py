@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import concurrent.futures
 import copy
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
@@ -21,6 +21,8 @@ from .limits import Limits
 
 _MAX_RESTARTS = 2
 _HARMLESS = ("ok", "error", "memory")
+
+_FIGURE = "application/vnd.autograder.figure+json"  # of a figure that waits in the kernel: its number there
 
 _RUNNING: set[asyncio.Task[Run]] = set()
 
@@ -57,9 +59,12 @@ class Run:
         return next((cell.message for cell in self.cells.values() if cell.doubtful), None)
 
 
+Looked = Callable[[Run], Collection[int]]
+
+
 @dataclass
 class _Session:
-    """One notebook on its way: the kernel it has now and what it may still use."""
+    """One notebook on its way: the kernel it has now, what it may still use, and the figures that wait, by cell."""
 
     nb: NotebookNode
     limits: Limits
@@ -70,8 +75,10 @@ class _Session:
     used: int = 0
     spent: Spent = field(default_factory=Spent)
     harmful: set[int] = field(default_factory=set)
+    figures: dict[int, list[int]] = field(default_factory=dict)
 
     async def start(self) -> None:
+        self.figures = {}
         self.client = SandboxClient(self.nb, self.limits, self.options, self.used, self.spent)
         self.starts += 1
         await self.client.start()
@@ -106,14 +113,35 @@ class _Session:
     async def replay(self) -> None:
         """Bring a fresh kernel to the state after the cells run so far, without those that did harm."""
         for earlier in sorted(self.run.cells.keys() - self.harmful):
-            if self.did_harm(await self.execute(self.nb.cells[earlier].source)):
+            result = await self.execute(self.nb.cells[earlier].source)
+            self.figures[earlier] = _numbers(result.outputs)
+            if self.did_harm(result):
                 self.harmful.add(earlier)
             self.kernel.used = self.used
             if self.kernel.lost or self.run.message is not None:
                 return
 
+    async def draw(self, index: int) -> None:
+        """Put the pictures of a cell's figures into its outputs, as far as they are to be had."""
+        outputs, numbers = self.run.cells[index].outputs, self.figures.get(index, [])
+        shown = _numbers(outputs)
+        if not numbers or len(numbers) != len(shown):
+            return
+        cell = nbformat.v4.new_code_cell(f"get_ipython().draw_figures(*{numbers})")
+        self.nb.cells.append(cell)
+        drawn = (await self.kernel.run_code(cell.source, cell, len(self.nb.cells) - 1)).outputs
+        pictures = {number: output for output in drawn for number in _numbers([output]) if "image/png" in output.data}
+        in_place = {old: pictures[new] for old, new in zip(shown, numbers) if new in pictures}
+        self.run.cells[index].outputs = [in_place.get((*_numbers([output]), -1)[0], output) for output in outputs]
 
-async def _run_cells(session: _Session, followup: Followup | None) -> None:
+
+def _numbers(outputs: list[NotebookNode]) -> list[int]:
+    """The numbers of the figures among outputs."""
+    found = (output.get("data", {}).get(_FIGURE) for output in outputs)
+    return [number for number in found if type(number) is int and 0 <= number < 1000]
+
+
+async def _run_cells(session: _Session, followup: Followup | None, looked: Looked | None) -> None:
     """Run every code cell of the session's notebook, in a new kernel where the old one was lost."""
     code_cells = [index for index, cell in enumerate(session.nb.cells) if cell.cell_type == "code"]
     run = session.run
@@ -133,6 +161,7 @@ async def _run_cells(session: _Session, followup: Followup | None) -> None:
             run.cells[index] = CellRun("not_run", run.message)
             continue
         result = run.cells[index] = await session.execute(source)
+        session.figures[index] = _numbers(result.outputs)
         if session.did_harm(result):
             session.harmful.add(index)
         code = followup(index, session.nb.cells[index], result.outputs) if followup is not None else None
@@ -142,14 +171,18 @@ async def _run_cells(session: _Session, followup: Followup | None) -> None:
             if probed.status != "ok" and result.status == "ok":
                 result.status, result.doubtful = probed.status, probed.doubtful
                 result.message = f"{probed.message} (with the grader's inputs)"
+    for index in sorted(code_cells if looked is None else looked(run)):
+        if session.client is None or session.client.lost:
+            return
+        await session.draw(index)
 
 
-async def _run_session(session: _Session, followup: Followup | None) -> Run:
+async def _run_session(session: _Session, followup: Followup | None, looked: Looked | None) -> Run:
     task = asyncio.current_task()
     assert task is not None
     _RUNNING.add(task)
     try:
-        await _run_cells(session, followup)
+        await _run_cells(session, followup, looked)
     finally:
         session.stop()
         _RUNNING.discard(task)
@@ -163,6 +196,7 @@ def run_notebook(
     limits: Limits = Limits(),
     mode: Literal["bwrap", "none"] = "bwrap",
     followup: Followup | None = None,
+    looked: Looked | None = None,
     hidden: tuple[Path, ...] = (),
     warm: bool = True,
 ) -> Run:
@@ -182,6 +216,9 @@ def run_notebook(
         ``followup(index, cell, outputs)`` is called here, in the trusted process, after each cell. Code that it
         returns is run in the same kernel under the same limits; its outputs are kept apart, and trouble in it becomes
         the status of its cell.
+    looked : callable, optional
+        ``looked(run)`` is called here at the end and says which cells' figures somebody will look at: these are drawn,
+        of the others only words are left. Without it, all are. Figures of a kernel that was lost are not drawn.
     hidden : tuple of Path
         Further folders that a kernel must not see.
     warm : bool
@@ -207,9 +244,9 @@ def run_notebook(
     }
     session = _Session(copy.deepcopy(nb), limits, options)
     if not _loop_is_running():
-        return asyncio.run(_run_session(session, followup))
+        return asyncio.run(_run_session(session, followup, looked))
     with concurrent.futures.ThreadPoolExecutor(1) as thread:
-        return thread.submit(asyncio.run, _run_session(session, followup)).result()
+        return thread.submit(asyncio.run, _run_session(session, followup, looked)).result()
 
 
 def _loop_is_running() -> bool:

@@ -28,7 +28,7 @@ from .limits import Limits
 
 FIRST_DOOR = 4  # the number that the first of a kernel's sockets has in the kernel, see `warm_parent`
 _FOLDER = ".warm"  # in the parent's own home
-_MODULES = ("numpy", "sympy", "matplotlib.pyplot", "ipywidgets", "dhkit.drawing", "dhkit.pictures")
+_MODULES = ("numpy", "sympy", "matplotlib.pyplot", "ipywidgets", "dhkit.rehearsal")
 _TEXTS = ("warm_parent", "enter", "kernel")
 _IDLE_SECONDS = 60.0  # after which a parent that has no kernel ends
 _START_SECONDS = 300.0  # on a busy machine

@@ -56,25 +56,19 @@ def prctl(option, *values):
 def warm_up(modules):
     """Load what notebooks import, and do once what is slow the first time: fonts, formulas, SymPy's caches.
 
-    Pyplot is not asked for a figure: its backend is chosen in the kernel.
+    Of the modules, the last one has a function ``rehearse``, which may leave figures; the last of them is drawn.
     """
     for module in modules:
         importlib.import_module(module)
     share_formulas()
+    import matplotlib.pyplot as plt
     import numpy
     import sympy
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
 
-    figure = Figure()
-    FigureCanvasAgg(figure)
-    flat, solid = figure.add_subplot(121), figure.add_subplot(122, projection="3d")
-    flat.plot([0, 1], [0, 1], "o-", label=r"$\theta_1^2 + \frac{1}{2}$")
-    flat.annotate(r"$x_0$", (0, 1), (1, 0), arrowprops={"arrowstyle": "->"})
-    flat.set_title("title")
-    flat.legend()
-    solid.plot([0, 1], [0, 1], [0, 1])
-    figure.savefig(io.BytesIO(), format="png", bbox_inches="tight")
+    plt.switch_backend("agg")  # a kernel chooses its own
+    sys.modules[modules[-1]].rehearse()
+    plt.savefig(io.BytesIO(), format="png", bbox_inches="tight")
+    plt.close("all")
 
     a, b, c = sympy.symbols("a b c")
     turn = sympy.Matrix([[sympy.cos(a), -sympy.sin(a), b], [sympy.sin(a), sympy.cos(a), 0], [0, 0, 1]])

@@ -5,8 +5,9 @@
 A class hands in the instructor's own answers, every student with a name of his own. Ours is ``autograder grade`` with
 feedback pages, from start to end of the command, notebooks run in the sandbox; a second run after ``--force`` judges what
 was kept. Stock is ``nbgrader autograde`` and ``nbgrader generate_feedback`` with nothing of ours configured: no sandbox, no
-judge. The floor is what the cells of one notebook take in a process that has run them before. Processor time is that
-of a command and everything it started; other work on the machine disturbs it less than the time on the clock.
+judge; and it draws every picture, while ours draws those of questions with something to mend: in this class, none. The
+floor is what the cells of one notebook take in a process that has run them before, their pictures not drawn. Processor time
+is that of a command and everything it started; other work on the machine disturbs it less than the time on the clock.
 """
 
 import argparse

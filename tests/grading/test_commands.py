@@ -171,18 +171,18 @@ def test_without_a_sandbox_grading_is_refused(course_copy, small, released, caps
 def test_a_submission_that_cannot_be_judged_is_said_and_the_others_are_graded(
     course_copy, small, released, capsys, monkeypatch
 ):
-    from autograder.grading.plugins import preprocessors
+    from autograder.grading.submission import judging
 
     for student in ("ann", "ben", "ev\x1bil"):
         small.hand_in(course_copy, student, small.answered(released))
-    judge = preprocessors.judge
+    judge = judging.judge
 
     def broken(question, evidence, student, earlier):
         if student == "ann":
             raise ArithmeticError("the judge is ill")
         return judge(question, evidence, student, earlier)
 
-    monkeypatch.setattr(preprocessors, "judge", broken)
+    monkeypatch.setattr(judging, "judge", broken)
     assert run(course_copy, "grade", "scara") == 1
     out = capsys.readouterr().out
     assert "could not be judged: ArithmeticError: the judge is ill" in out and "20/20" in out

@@ -20,6 +20,7 @@ pytestmark = [pytest.mark.slow, pytest.mark.sandbox]
 @pytest.fixture
 def in_processes(needs_sandbox, monkeypatch):
     monkeypatch.setattr(crew, "FEW", 0)
+    monkeypatch.setattr(crew, "ONE_SUFFICES", 0)
 
 
 def test_processes_give_what_threads_give(small, course_copy, released, in_processes, monkeypatch, capsys):

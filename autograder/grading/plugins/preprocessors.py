@@ -7,7 +7,6 @@ result (`SandboxExecute`, `JudgeAnswers`). ``nbgrader generate_feedback`` conver
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Container, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import fields, replace
@@ -18,8 +17,6 @@ from nbformat.notebooknode import NotebookNode
 from nbgrader.preprocessors import NbGraderPreprocessor
 from traitlets import Enum, Float, Integer, TraitType
 
-from autograder import questions
-from autograder.judge import is_forgivable, judge
 from autograder.judge.clusters import is_unexplained, keep
 from autograder.sandbox import Limits
 from dhkit.public import questions as public_questions
@@ -44,11 +41,11 @@ from ..store import StoredNotebook
 from ..submission import trial
 from ..submission.elsewhere import MustRun, pack, unpack
 from ..submission.execution import Execution, InDoubt, MachineFault, Mode, Work, confirm, execute
+from ..submission.judging import verdicts
 from ..submission.kept import KeptRun, kept_path
 from ..submission.restore import restore
 
 Turn = Literal["first", "alone", "both"]
-_JUDGING = threading.Lock()  # SymPy, which references are made with, is not made for several threads
 _TRAITS = {"bytes": Integer, "seconds": Float, "count": Integer}
 
 
@@ -174,7 +171,7 @@ class SandboxExecute(NbGraderPreprocessor):
             nb.cells[index].execution_count = count
         if execution.message:
             write_record(nb, replace(notebook_record(nb), trouble=terminal_text(execution.message)))
-        ours["evidence"] = execution.evidence
+        ours["evidence"], ours["verdicts"] = execution.evidence, execution.verdicts
         return nb, resources
 
 
@@ -185,18 +182,15 @@ class JudgeAnswers(NbGraderPreprocessor):
     """
 
     def preprocess(self, nb: NotebookNode, resources: dict) -> tuple[NotebookNode, dict]:
-        with _JUDGING:
-            return super().preprocess(nb, resources)
+        ours, student = resources["autograder"], resources["nbgrader"]["student"]
+        if ours["verdicts"] is None:
+            ours["verdicts"] = verdicts(ours["evidence"], student)
+        return super().preprocess(nb, resources)
 
     def preprocess_cell(self, cell: NotebookNode, resources: dict, index: int) -> tuple[NotebookNode, dict]:
         if (check := check_name(cell)) is None:
             return cell, resources
-        evidence = resources["autograder"]["evidence"][check]
-        question = questions.find(question_id(check))
-        earlier = resources["autograder"].setdefault("forgivable", {})
-        verdict = judge(question, evidence, resources["nbgrader"]["student"], earlier)
-        if is_forgivable(verdict):
-            earlier[question.id] = evidence
+        evidence, verdict = (resources["autograder"][name][check] for name in ("evidence", "verdicts"))
         share, feedback = verdict.share, verdict.feedback
         if counts_for_everybody(cell):
             share, feedback = 1.0, f"**This question counts fully for everybody.** Of your answer:\n\n{feedback}"
@@ -206,7 +200,7 @@ class JudgeAnswers(NbGraderPreprocessor):
             shown({"text/plain": str(earned)}, execution_count=cell.execution_count),
         ]
         trouble = terminal_text(evidence.trouble) if evidence.trouble else None
-        answer = keep(question.id, evidence.packet) if is_unexplained(verdict.note) else None
+        answer = keep(question_id(check), evidence.packet) if is_unexplained(verdict.note) else None
         write_record(cell, CheckRecord(verdict.note, share, trouble, answer))
         return cell, resources
 

@@ -8,7 +8,8 @@ import importlib.util
 import json
 import re
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Literal
@@ -16,12 +17,14 @@ from typing import Literal
 from nbformat.notebooknode import NotebookNode
 
 from autograder import questions
-from autograder.judge import MIME, Evidence
+from autograder.judge import MIME, Evidence, Verdict
 from autograder.sandbox import CellRun, Limits, Run, read_folders, run_notebook
+from dhkit.home.envelopes import SUFFIX
 
 from ..cells import answer_id, check_cells, check_name, grade_id, is_check, notebook_record, question_id
 from ..errors import CourseError
 from ..inert import inert_outputs
+from .judging import cells_looked_at, verdicts
 from .kept import KeptRun, conditions, digest_of_work, keep, read_kept
 
 Mode = Literal["bwrap", "none"]
@@ -56,6 +59,8 @@ class Execution:
         Whether the machine let it run so little that nothing can be said about it.
     lived : float
         For how many seconds the longest-lived of the kernels lived that ended for no reason that is known.
+    verdicts : dict of str to Verdict or None
+        By the grade id of the check cell, if it was judged while it ran.
     """
 
     fingerprint: str
@@ -65,6 +70,7 @@ class Execution:
     doubt: str | None = None
     starved: bool = False
     lived: float = 0.0
+    verdicts: dict[str, Verdict] | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True)
@@ -112,16 +118,26 @@ class Work:
             call = f"answer_probes({question_id(check)!r}, {json.dumps(arguments)!r})"
             return f"from dhkit.check import answer_probes\n{call}"
 
+        judged: dict[str, Verdict] | None = None
+
+        def looked(run: Run) -> set[int]:
+            nonlocal judged
+            with suppress(Exception):  # whoever judges later fails in the same way, and says so
+                judged = verdicts(evidence_of(self.nb, KeptRun(run, sent)), self.student)
+            right = {check for check, verdict in (judged or {}).items() if verdict.share == 1}
+            return cells_looked_at(self.nb, right) & run.cells.keys()
+
         run = run_notebook(
             self.nb,
             files=self.files,
             limits=self.limits,
             mode=self.mode,
             followup=probe,
+            looked=looked,
             hidden=hidden,
             warm=warm,
         )
-        return KeptRun(run, sent)
+        return KeptRun(run, sent, judged)
 
     def fits(self, found: KeptRun) -> bool:
         """Whether the functions that a run handed in were called with what they would be called with now."""
@@ -167,6 +183,8 @@ def execute(
         return Execution(record.submission, {}, unread)
     folders = list(folders)
     files, left_out = read_folders(folders, limits.disk // 2)
+    # Opening a verdict sealed for home is slow on purpose, and here the judge has the word.
+    files = {name: content for name, content in files.items() if not name.endswith(SUFFIX)}
     work = Work(_with_kit(nb), files, student, limits, mode)
     if kept is not None and (found := read_kept(kept, work.key)) is not None and work.fits(found):
         return execution_of(nb, found, left_out)
@@ -182,12 +200,17 @@ def execution_of(nb: NotebookNode, found: KeptRun, left_out: Sequence[str] = ())
     run = found.run
     counts = {index: count for count, index in enumerate(sorted(run.cells), 1)}
     outputs = {index: inert_outputs(cell.outputs, counts[index]) for index, cell in run.cells.items()}
-    checks = {index: name for index in run.cells if (name := check_name(nb.cells[index]))}
-    evidence = {name: _evidence(nb, index, name, run, found.sent) for index, name in checks.items()}
     message = run.message or _left_out(left_out)
     doubt = run.doubt or next((cell.message for cell in run.cells.values() if _missed_import(cell)), None)
     submission = notebook_record(nb).submission
-    return Execution(submission, outputs, evidence, message, doubt, run.starved, run.lived)
+    evidence = evidence_of(nb, found)
+    return Execution(submission, outputs, evidence, message, doubt, run.starved, run.lived, found.verdicts)
+
+
+def evidence_of(nb: NotebookNode, found: KeptRun) -> dict[str, Evidence]:
+    """What the judge needs to know, by the grade id of the check cell."""
+    checks = {index: name for index in found.run.cells if (name := check_name(nb.cells[index]))}
+    return {name: _evidence(nb, index, name, found.run, found.sent) for index, name in checks.items()}
 
 
 def _probes(nb: NotebookNode, student: str, work: str, run: Run) -> dict[int, list]:

@@ -21,6 +21,7 @@ import msgspec
 from nbformat.notebooknode import NotebookNode
 
 import dhkit
+from autograder.judge import Verdict
 from autograder.sandbox import CellRun, Limits, Run
 
 from ..cells import grade_id
@@ -46,10 +47,13 @@ class KeptRun:
     run : Run
     sent : dict of int to list
         What students' functions were called with, by the index of the check cell.
+    verdicts : dict of str to Verdict or None
+        By the grade id of the check cell, if it was just run and judged; they are not kept.
     """
 
     run: Run
     sent: dict[int, list] = field(default_factory=dict)
+    verdicts: dict[str, Verdict] | None = field(default=None, compare=False)
 
 
 def digest_of_work(nb: NotebookNode, files: Mapping[str, bytes]) -> str:

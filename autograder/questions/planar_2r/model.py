@@ -88,18 +88,12 @@ def matrices(arm: str) -> tuple[sympy.Matrix, ...]:
     return tuple(modified_dh(*row[1:]) for row in TABLES[arm])
 
 
-@cache
-def _pose(arm: str) -> sympy.Matrix:
-    return sympy.simplify(product(matrices(arm)))
-
-
 def own_pose(mine, *, order=1, rows=slice(None), sense=1) -> sympy.Matrix:
     """The transform from base to end effector of the student's arm.
 
     The matrices may be multiplied in the other `order`, some `rows` left out, or the turns of one `sense` taken for the other.
     """
-    whole = (order, rows) == (1, slice(None))
-    pose = _pose(mine.arm) if whole else product(matrices(mine.arm)[rows][::order])
+    pose = product(matrices(mine.arm)[rows][::order])
     turning = [joint for joint, sigma in _kinds(mine.arm) if not sigma]
     return pose.subs({joint: sense * joint for joint in turning}, simultaneous=True)
 

@@ -6,7 +6,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..geometry import unit_vector
 from .strokes_3d import write_3d
 from .style import INK
 from .view import to_pixels, view_axes
@@ -67,43 +66,38 @@ class Labels:
             at = label.at + shift[0] * right + shift[1] * up
             write_3d(ax, at, label.text, color=label.colour, fontsize=label.fontsize)
 
-    def _settle(self, ax, anchors, scale) -> list[np.ndarray]:
-        """Centres of the labels in pixels: each in turn takes its cheapest place, three times over."""
+    def _settle(self, ax, anchors, scale) -> np.ndarray:
+        """Centres of the labels in pixels, shape (n, 2): each in turn takes its cheapest place, three times over."""
         point = ax.figure.dpi / 72
-        halves = [point * label.fontsize * np.array([0.5 * _width(label.text) + 0.1, 0.62]) for label in self._wanted]
-        choices = [
-            list(_options(ax, label, anchor, half, scale, point))
-            for label, anchor, half in zip(self._wanted, anchors, halves)
-        ]
+        halves = np.array([
+            point * label.fontsize * np.array([0.5 * _width(label.text) + 0.1, 0.62]) for label in self._wanted
+        ])  # fmt: skip
         obstacles = to_pixels(ax, np.vstack(self._obstacles)) if self._obstacles else np.zeros((0, 2))
-        places = [options[0][0] for options in choices]
-        placed = set()
+        choices = []
+        for k, (label, half) in enumerate(zip(self._wanted, halves)):
+            centres, costs = _options(ax, label, anchors[k], half, scale, point)
+            costs += _covering(centres, half, obstacles) + _leaving(centres, half, ax.figure.bbox)
+            choices.append((centres, costs + _confusion(centres, anchors, k)))
+        places = np.array([centres[0] for centres, _ in choices])
         for sweep in range(3):
-            for k, options in enumerate(choices):
-                others = [(places[j], halves[j]) for j in range(len(places)) if j != k and (sweep or j in placed)]
-                costs = [
-                    cost
-                    + _crowding(place, halves[k], others, obstacles, ax.figure.bbox)
-                    + _confusion(place, anchors, k)
-                    for place, cost in options
-                ]
-                places[k] = options[int(np.argmin(costs))][0]
-                placed.add(k)
+            for k, (centres, costs) in enumerate(choices):
+                others = [j for j in range(len(places) if sweep else k) if j != k]
+                crowded = costs + _crowding(centres, halves[k], places[others], halves[others])
+                places[k] = centres[np.argmin(crowded)]
         return places
 
 
 def _options(ax, label, anchor, half, scale, point):
-    """Places to try for a label, as centres in pixels, and what each costs by itself."""
+    """Places to try for a label, as centres in pixels, (k, 2), and what each costs by itself, (k,)."""
     heading, steep = np.pi / 2, 0.0
     if label.towards is not None:
         way = np.diff(to_pixels(ax, [label.at, label.at + np.asarray(label.towards, float)]), axis=0)[0]
         heading = np.arctan2(*way[::-1])
         steep = np.linalg.norm(way) / scale / np.linalg.norm(label.towards)
-    for turn in TURNS:
-        for extra in EXTRA:
-            out = unit_vector(heading + turn)
-            reach = min(half / np.maximum(np.abs(out), 1e-9)) + (label.gap + extra) * point
-            yield anchor + reach * out, (2.2 if steep > 0.25 else 0.8) * abs(turn) + 0.09 * extra
+    turns, extras = (grid.ravel() for grid in np.meshgrid(TURNS, EXTRA, indexing="ij"))
+    out = np.stack([np.cos(heading + turns), np.sin(heading + turns)], axis=-1)
+    reach = (half / np.maximum(np.abs(out), 1e-9)).min(axis=1) + (label.gap + extras) * point
+    return anchor + reach[:, None] * out, (2.2 if steep > 0.25 else 0.8) * np.abs(turns) + 0.09 * extras
 
 
 def _width(text: str) -> float:
@@ -123,22 +117,29 @@ def _width(text: str) -> float:
     return width
 
 
-def _confusion(place, anchors, own) -> float:
-    """What a place costs that is not clearly nearer to what its label names than to what another one does."""
-    away = np.linalg.norm(anchors - place, axis=1)
-    others = np.delete(away, own)
-    return 12.0 * max(0.0, 1.0 - others.min() / (CLEARLY * away[own])) if len(others) else 0.0
+def _confusion(centres, anchors, own) -> np.ndarray:
+    """What places cost, (k,), that are not clearly nearer to what their label names than to what another one does."""
+    away = np.linalg.norm(centres[:, None] - anchors, axis=-1)
+    if len(anchors) == 1:
+        return np.zeros(len(centres))
+    nearest = np.delete(away, own, axis=1).min(axis=1)
+    return 12.0 * np.maximum(0.0, 1.0 - nearest / (CLEARLY * away[:, own]))
 
 
-def _crowding(centre, half, others, obstacles, frame) -> float:
-    """What a place costs for covering other labels and obstacles, and for leaving the figure."""
-    cost = 0.0
-    for other, size in others:
-        overlap = np.minimum(half + size + 2 - np.abs(centre - other), 2 * np.minimum(half, size))
-        if (overlap > 0).all():
-            cost += 6 + 12 * overlap.prod() / (4 * half.prod())
-    if len(obstacles):
-        cost += 0.8 * min((np.abs(obstacles - centre) < half + 1).all(axis=1).sum(), 8)
-    below = np.maximum([frame.x0 + 3, frame.y0 + 3] - (centre - half), 0)
-    above = np.maximum((centre + half) - [frame.x1 - 3, frame.y1 - 3], 0)
-    return cost + 1.5 * (below + above).sum()
+def _crowding(centres, half, others, sizes) -> np.ndarray:
+    """What places cost, (k,), for covering other labels."""
+    overlap = np.minimum(half + sizes + 2 - np.abs(centres[:, None] - others), 2 * np.minimum(half, sizes))
+    covered = (overlap > 0).all(axis=-1)
+    return np.where(covered, 6 + 12 * overlap.prod(axis=-1) / (4 * half.prod()), 0.0).sum(axis=1)
+
+
+def _covering(centres, half, obstacles) -> np.ndarray:
+    """What places cost, (k,), for covering obstacles."""
+    return 0.8 * np.minimum((np.abs(obstacles - centres[:, None]) < half + 1).all(axis=-1).sum(axis=1), 8)
+
+
+def _leaving(centres, half, frame) -> np.ndarray:
+    """What places cost, (k,), for leaving the figure."""
+    below = np.maximum([frame.x0 + 3, frame.y0 + 3] - (centres - half), 0)
+    above = np.maximum((centres + half) - [frame.x1 - 3, frame.y1 - 3], 0)
+    return 1.5 * (below + above).sum(axis=1)

@@ -21,8 +21,8 @@ from sqlalchemy.exc import OperationalError
 from autograder import cli
 from autograder.grading import files, rendering
 from autograder.grading.cells import check_cells, notebook_record, question_id
-from autograder.grading.plugins import preprocessors
 from autograder.grading.plugins.preprocessors import SandboxExecute
+from autograder.grading.submission import judging
 from autograder.grading.submission.execution import Execution
 from autograder.judge import Evidence
 from dhkit import wire
@@ -154,7 +154,7 @@ class Steps:
 
         os.replace, os.fsync = around("replace", os.replace), around("fsync", os.fsync)
         Path.mkdir, Path.unlink = around("mkdir", Path.mkdir), around("unlink", Path.unlink)
-        preprocessors.judge = around("judge", preprocessors.judge)
+        judging.judge = around("judge", judging.judge)
         whole = Path.open
 
         def opened(path, mode="r", *more, **options):

@@ -229,9 +229,9 @@ def test_a_page_that_was_cut_off_is_written_again(graded, faults, right):
 
 
 def test_only_what_is_missing_is_graded(graded, faults, monkeypatch, capsys):
-    from autograder.grading.plugins import preprocessors
+    from autograder.grading.submission import judging
 
-    monkeypatch.setattr(preprocessors, "judge", lambda *evidence: pytest.fail("judged again"))
+    monkeypatch.setattr(judging, "judge", lambda *evidence: pytest.fail("judged again"))
     shutil.rmtree(graded / "feedback")
     assert faults.grade(graded) == 0
     assert "0 graded; 3 unchanged" in capsys.readouterr().out
