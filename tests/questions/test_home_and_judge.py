@@ -310,4 +310,4 @@ def test_angles_a_turn_further_pass_at_home(capsys):
             entries[list(question.angles)] += 2 * sympy.pi
             found += 1
             assert not failed(capsys, question, entries.tolist() if question.form.kind == "vector" else entries[0])
-    assert found > 2
+    assert found >= 2
