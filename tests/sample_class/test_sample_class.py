@@ -23,7 +23,7 @@ pytestmark = [pytest.mark.slow, pytest.mark.sandbox]
 SANDBOX = available() is None
 CLASS = [submission for submission in submissions() if SANDBOX or not submission.harmful]
 # What loops for ever is stopped sooner; a slow machine still reaches the bound on output before the one on time.
-LIMITS = {"cell_seconds": 20, "notebook_seconds": 120}
+LIMITS = {"cell_seconds": 10, "notebook_seconds": 120}
 CANARY = "canary-of-the-sample-class"
 FRAME_NOTES = EARN_ALL | EARN_NOTHING | {"partly_right", "same_chain_other_frames"}
 # Of the catalogue behind every question, what somebody of the class does.
