@@ -125,7 +125,7 @@ def nested(value: object) -> Nested | None:
     if isinstance(value, sympy.MatrixBase):
         return value.tolist()
     if isinstance(value, np.ndarray):
-        return nested(value.tolist())
+        return value.tolist() if value.dtype.kind in "iuf" else nested(value.tolist())
     if isinstance(value, bool) or not isinstance(value, (list, tuple, set, int, float, np.number, sympy.Expr)):
         return None
     if isinstance(value, (list, tuple, set)):
@@ -136,11 +136,10 @@ def nested(value: object) -> Nested | None:
 
 def shape_of(value: Nested) -> tuple[int, ...] | None:
     """The shape of nested lists, () of a single entry; None where they are ragged."""
-    if not isinstance(value, list):
-        return ()
-    shapes = {shape_of(item) for item in value}
-    inner = shapes.pop() if len(shapes) == 1 else None
-    return None if inner is None else (len(value), *inner)
+    try:
+        return np.shape(value)
+    except ValueError:
+        return None
 
 
 def parts(value: object) -> Iterator[Nested]:
