@@ -40,8 +40,9 @@ def said_wrong(event: dict) -> str:
 def visit(tab: Tab, url: str) -> list[str]:
     """What is wrong with a page, in words."""
     tab.events.clear()
+    tab.ask("window.left = true")  # the page before may still be there, and complete
     tab.tell("Page.navigate", url=url)
-    tab.until("document.readyState === 'complete' && location.protocol === 'file:'")
+    tab.until("!window.left && document.readyState === 'complete' && location.protocol === 'file:'")
     if tab.ask(f"!!{LIVE}"):
         tab.ask(f"{LIVE}.scrollIntoView()")
         tab.until(f"!!{LIVE}.querySelector('.stage')?.shadowRoot?.querySelector('.label')")
