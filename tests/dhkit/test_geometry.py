@@ -47,6 +47,12 @@ def test_wrap_does_not_take_a_huge_number_for_zero():
     assert (np.abs(wrap([1e17, 1e300, 1e308, -1e308])) > 1e-3).all()
 
 
+def test_what_is_no_number_does_not_change_how_a_huge_one_is_wrapped():
+    with np.errstate(invalid="ignore"):
+        found = wrap([np.nan, 1e17, 0.5])
+    assert np.isnan(found[0]) and found[1] == wrap(1e17) and found[2] == 0.5
+
+
 def test_wrap_agrees_with_the_angle_of_the_complex_number_and_takes_any_shape():
     angles = RNG.uniform(-50, 50, (4, 5))
     assert np.allclose(wrap(angles), np.angle(np.exp(1j * angles)))

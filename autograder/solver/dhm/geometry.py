@@ -56,7 +56,7 @@ def wrap(angle: ArrayLike, rounding: float = 6e-13) -> np.ndarray:
     turns = np.subtract(angle, np.pi + rounding, out=np.empty(angle.shape))
     turns *= 0.5 / np.pi
     np.ceil(turns, out=turns)
-    if max(turns.max(initial=0.0), -turns.min(initial=0.0)) >= 1e9:
+    if not (turns.max(initial=0.0) < 1e9 and turns.min(initial=0.0) > -1e9):  # not a number is neither
         near = np.minimum(angle - turns * (2 * np.pi), np.pi)
         return np.where(np.abs(turns) < 1e9, near, np.pi - np.remainder(np.pi - angle, 2 * np.pi))[()]
     turns *= -2 * np.pi
