@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import takewhile
 from pathlib import Path
 
 import nbformat
@@ -12,7 +13,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from nbformat.notebooknode import NotebookNode
 
 from autograder import questions
-from autograder.judge import Evidence, is_forgivable, judge
+from autograder.judge import Evidence, is_forgivable
 from autograder.judge.account import Account, account
 from autograder.judge.tree import UNEXPLAINED
 from autograder.sandbox import available
@@ -30,6 +31,7 @@ from .plugins.autograde import SubmissionAutograde, submission
 from .plugins.preprocessors import SandboxExecute
 from .roster import read_roster
 from .store import StoredComment, StoredGrade, stored_notebooks
+from .submission.judging import verdicts
 from .submission.restore import restore
 
 _SOURCE, _LINE, _CALLS = 4000, 400, 3
@@ -144,16 +146,9 @@ def _earlier(
     asked: Mapping[str, NotebookNode], check: str, evidence: Mapping[str, Evidence], student: str
 ) -> tuple[dict[str, Evidence], dict[str, str]]:
     """Evidence of the questions before `check` whose errors are forgivable, and the notes of all of them."""
-    forgivable: dict[str, Evidence] = {}
-    notes: dict[str, str] = {}
-    for name in asked:
-        if name == check:
-            break
-        one = questions.find(question_id(name))
-        verdict = judge(one, evidence[name], student, forgivable)
-        notes[one.id] = verdict.note
-        if is_forgivable(verdict):
-            forgivable[one.id] = evidence[name]
+    before = verdicts({name: evidence[name] for name in takewhile(lambda name: name != check, asked)}, student)
+    notes = {question_id(name): verdict.note for name, verdict in before.items()}
+    forgivable = {question_id(name): evidence[name] for name, verdict in before.items() if is_forgivable(verdict)}
     return forgivable, notes
 
 

@@ -57,6 +57,7 @@ def put_off_figures(shell):
             pyplot.uninstall_repl_displayhook()  # it would draw every figure for nothing at each cell's end
 
     shell.draw_figures = draw_figures
+    forget_to_redraw()
     shell.events.register("post_execute", forget_to_redraw)
     shell.display_formatter.ipython_display_formatter.for_type_by_name("matplotlib.figure", "Figure", wait)
 
@@ -71,10 +72,9 @@ class InheritedSocketsApp(IPKernelApp):
 
     def init_shell(self):
         super().init_shell()
-        put_off_figures(self.shell)
         if "matplotlib.pyplot" in sys.modules:
             self.shell.enable_matplotlib("inline")  # a warm parent has drawn with another backend
-            sys.modules["matplotlib.pyplot"].uninstall_repl_displayhook()
+        put_off_figures(self.shell)
 
     def init_control(self, context):
         super().init_control(context)

@@ -130,15 +130,21 @@ class _Session:
         cell = nbformat.v4.new_code_cell(f"get_ipython().draw_figures(*{numbers})")
         self.nb.cells.append(cell)
         drawn = (await self.kernel.run_code(cell.source, cell, len(self.nb.cells) - 1)).outputs
-        pictures = {number: output for output in drawn for number in _numbers([output]) if "image/png" in output.data}
-        in_place = {old: pictures[new] for old, new in zip(shown, numbers) if new in pictures}
-        self.run.cells[index].outputs = [in_place.get((*_numbers([output]), -1)[0], output) for output in outputs]
+        pictures = {_number(output): output for output in drawn if "image/png" in output.get("data", {})}
+        in_place: dict[int | None, NotebookNode] = {
+            old: pictures[new] for old, new in zip(shown, numbers) if new in pictures
+        }
+        self.run.cells[index].outputs = [in_place.get(_number(output), output) for output in outputs]
+
+
+def _number(output: NotebookNode) -> int | None:
+    """The number of the figure that an output stands for, None if it is none."""
+    number = output.get("data", {}).get(_FIGURE)
+    return number if type(number) is int and 0 <= number < 1000 else None
 
 
 def _numbers(outputs: list[NotebookNode]) -> list[int]:
-    """The numbers of the figures among outputs."""
-    found = (output.get("data", {}).get(_FIGURE) for output in outputs)
-    return [number for number in found if type(number) is int and 0 <= number < 1000]
+    return [number for output in outputs if (number := _number(output)) is not None]
 
 
 async def _run_cells(session: _Session, followup: Followup | None, looked: Looked | None) -> None:

@@ -16,7 +16,7 @@ def check(name):
 
 
 @pytest.fixture
-def nb(monkeypatch):
+def nb():
     cells = [
         new_markdown_cell("# Title"),
         new_code_cell("draw()"),
