@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .geometry import phasor, unit_vector
 
@@ -55,7 +56,7 @@ def walk_of(arm: str) -> tuple[Step, ...]:
     return (ARMS | SLIDING)[arm]
 
 
-def places(arm: str, values: Mapping[str, float]) -> tuple[np.ndarray, np.ndarray]:
+def places(arm: str, values: Mapping[str, ArrayLike]) -> tuple[np.ndarray, np.ndarray]:
     """Where the walker stands and looks, at the base and after each of the n steps of a walk.
 
     Parameters
@@ -63,23 +64,24 @@ def places(arm: str, values: Mapping[str, float]) -> tuple[np.ndarray, np.ndarra
     arm : str
         A name of `ARMS` or `SLIDING`.
     values : mapping
-        Numbers for the letters of the walk, in metres and radians.
+        Numbers for the letters of the walk, or arrays of one shape (...), in metres and radians.
 
     Returns
     -------
-    positions : ndarray, shape (n + 1, 2)
+    positions : ndarray, shape (n + 1, ..., 2)
         In metres.
-    headings : ndarray, shape (n + 1,)
+    headings : ndarray, shape (n + 1, ...)
         In radians, from x0.
     """
     directions = {"ahead": 1, "left": 1j, "right": -1j}
-    at: list[Any] = [0j]
-    heading = [0.0]
-    for do, letter in walk_of(arm):
-        value = float(values[letter])
+    steps = walk_of(arm)
+    at: list[Any] = [np.zeros(np.broadcast_shapes(*(np.shape(values[letter]) for _, letter in steps)), complex)]
+    heading: list[Any] = [at[0].real]
+    for do, letter in steps:
+        value = np.asarray(values[letter], float)
         heading.append(heading[-1] + (value if do == "turn" else 0.0))
         at.append(at[-1] if do == "turn" else at[-1] + value * directions[do] * phasor(heading[-1]))
-    return np.column_stack([np.real(at), np.imag(at)]), np.array(heading)
+    return np.stack([np.real(at), np.imag(at)], axis=-1), np.array(heading)
 
 
 def describe(arm: str) -> str:
@@ -129,13 +131,13 @@ def sliding_outline(mine: Mapping[str, Any], count: int = 60) -> np.ndarray:
     """The outline of what the student's arm of `SLIDING` reaches, shape (4 count, 2): the image of its ranges' border."""
     (low1, high1), (low2, high2) = sliding_limits(mine).values()
     first, second = np.linspace(low1, high1, count), np.linspace(low2, high2, count)
-    border = [
+    border = np.array([
         *((q1, low2) for q1 in first),
         *((high1, q2) for q2 in second),
         *((q1, high2) for q1 in first[::-1]),
         *((low1, q2) for q2 in second[::-1]),
-    ]
-    return np.array([places(mine["slider"], {"a": mine["a"], "q1": q1, "q2": q2})[0][-1] for q1, q2 in border])
+    ])  # fmt: skip
+    return places(mine["slider"], {"a": mine["a"], "q1": border[:, 0], "q2": border[:, 1]})[0][-1]
 
 
 def stations(mine: Mapping[str, Any]) -> dict[str, tuple[float, float]]:

@@ -10,7 +10,7 @@ import sympy
 
 from autograder.reference import robots
 from dhkit.geometry import lies_between
-from dhkit.planar_arms import sliding_limits, stations, walk_of
+from dhkit.planar_arms import places, sliding_limits, stations, walk_of
 from dhm.equations import type8
 from dhm.workspace import RRArm
 
@@ -52,23 +52,17 @@ def cloud(mine, *, shape="grid", side="right", length=True, ranges="own") -> lis
     else:
         values = [grid.ravel() for grid in np.meshgrid(*(np.linspace(*row, 60) for row in limits.values()))]
     known = dict(zip(limits, values), a=mine.a if length else 0.0)
-    directions = {"ahead": 1, "left": 1j, "right": -1j}
-    at, heading, flip = 0j, 1.0 + 0j, side == "other"
-    for do, letter in steps:
-        if do == "turn":
-            heading = heading * np.exp(1j * known[letter])
-        else:
-            at, flip = at + (-1 if flip else 1) * known[letter] * directions[do] * heading, False
-    return np.stack(np.broadcast_arrays(np.real(at), np.imag(at)), axis=-1).reshape(-1, 2).tolist()
+    if side == "other":
+        carried = next(letter for do, letter in steps if do != "turn")
+        known[carried] = -known[carried]
+    return places(mine.slider, known)[0][-1].tolist()
 
 
 def area(mine, patch="integrated") -> float:
     """Area in square metres that the student's arm with a slide sweeps; `patch` may be the ``"product"`` of the two widths."""
     limits = sliding_limits(mine)
-    (turn, (low, high)), (_, (inner, outer)) = sorted(
-        ((do == "turn", limits[letter]) for do, letter in walk_of(mine.slider) if letter in limits), reverse=True
-    )
-    assert turn
+    ranges = {do == "turn": limits[letter] for do, letter in walk_of(mine.slider) if letter in limits}
+    (low, high), (inner, outer) = ranges[True], ranges[False]
     boom = mine.slider.startswith("boom")
     if patch == "product":
         return (high - low) * (outer - inner) * (1 if boom else mine.a)
